@@ -257,11 +257,17 @@ fn is_environment(key: &str, name: &str) -> bool {
     packaged::Kind::of_key(key) == packaged::Kind::Light && ENVIRONMENTS.contains(&&*ending)
 }
 
+/// The folder of the user's environment maps, where a light's `path` is sought if it is not beside the light's file.
+const LIGHTS_FOLDER: &str = "UNSHADE_LIGHTS";
+
 /// Makes the files that the table of a face or light names absolute; they lie beside `origin`.
 pub(super) fn resolve_files(origin: &Path, table: &mut Table) {
     for key in FILES {
         if let Some(Value::String(path)) = table.get_mut(key) {
-            let file = beside(origin, path);
+            let mut file = beside(origin, path);
+            if let (false, "path", Some(folder)) = (file.exists(), key, std::env::var_os(LIGHTS_FOLDER)) {
+                file = Path::new(&folder).join(path);
+            }
             *path = std::path::absolute(&file).unwrap_or(file).to_string_lossy().into_owned();
         }
     }

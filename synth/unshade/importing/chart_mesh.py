@@ -12,13 +12,15 @@ from .. import _native
 from ..errors import CaptureError
 from ..vectors import triangle_normals
 from .source import Matrix
+from .unwrap import unwrap
 
 
 @dataclass(frozen=True)
 class ChartMesh:
     """Triangles with a UV at every vertex; ``normals`` are None where the file has none.
 
-    ``verbatim`` are the file's bytes while nothing of it was changed. ``parts`` are its materials (or objects)
+    ``verbatim`` are the file's bytes while nothing of it was changed; ``has_own_uv`` is False if its texture
+    coordinates were made here. ``parts`` are its materials (or objects)
     in words, ``part_of`` (F,) which of them each triangle is of.
     """
 
@@ -29,6 +31,7 @@ class ChartMesh:
     verbatim: bytes | None
     parts: tuple[str, ...]
     part_of: NDArray[np.int64]
+    has_own_uv: bool = True
 
     def moved(self, similarity: Matrix) -> ChartMesh:
         """The mesh after a similarity (4, 4)."""
@@ -63,7 +66,8 @@ class ChartMesh:
 
 
 def read_mesh(path: Path, objects: tuple[str, ...] = ()) -> ChartMesh:
-    """Reads an OBJ file; of its objects those named, or all. Raises `CaptureError`."""
+    """Reads an OBJ file; of its objects those named, or all. A mesh without any texture coordinates is unwrapped.
+    Raises `CaptureError`."""
     if path.suffix.lower() != ".obj":
         raise CaptureError(f"{path}: is not an OBJ file; export the mesh as OBJ with its texture coordinates")
     try:
@@ -82,8 +86,9 @@ def read_mesh(path: Path, objects: tuple[str, ...] = ()) -> ChartMesh:
         raise CaptureError(f"{path}: has no triangles; export the mesh with its surface")
     vertices, uvs, triangles, normals, part_of, start = [], [], [], [], [], 0
     parts: dict[str, int] = {}
+    has_own_uv = any(piece["uv"] is not None for piece in chosen)
     for piece in chosen:
-        uv = piece["uv"]
+        uv = piece["uv"] if has_own_uv else np.zeros((len(piece["vertices"]), 2))
         if uv is None:
             raise CaptureError(
                 f"{path}: object {piece['name']!r} has no texture coordinates; unwrap it, or name the objects of the face"
@@ -99,7 +104,7 @@ def read_mesh(path: Path, objects: tuple[str, ...] = ()) -> ChartMesh:
     joined = np.concatenate(vertices)
     if not np.isfinite(joined).all():
         raise CaptureError(f"{path}: has a vertex that is not finite; export the mesh again")
-    return ChartMesh(
+    mesh = ChartMesh(
         joined,
         np.concatenate(triangles),
         np.concatenate(uvs),
@@ -107,7 +112,13 @@ def read_mesh(path: Path, objects: tuple[str, ...] = ()) -> ChartMesh:
         data if len(chosen) == len(pieces) else None,
         tuple(parts),
         np.concatenate(part_of),
+        has_own_uv,
     )
+    if has_own_uv:
+        return mesh
+    rows, triangles, uv = unwrap(mesh.vertices, mesh.triangles)
+    normals = None if mesh.normals is None else mesh.normals[rows]
+    return replace(mesh, vertices=joined[rows], triangles=triangles, uv=uv, normals=normals, verbatim=None)
 
 
 def smooth_normals(vertices: NDArray[np.float64], triangles: NDArray[np.int64]) -> NDArray[np.float64]:

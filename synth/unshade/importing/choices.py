@@ -10,11 +10,18 @@ from .pictures import check_curve
 from .placement import PLACES, UNITS
 
 
+HULL = "hull"
+"""The mesh that is carved from the masks."""
+
+MASKS = ("alpha", "silhouette", "grabcut")
+"""Masks that no file holds."""
+
+
 @dataclass(frozen=True)
 class Choices:
     """The choices that files leave open; the fields are those of `import_capture`."""
 
-    mesh: Path | None = None
+    mesh: Path | str | None = None
     objects: tuple[str, ...] = ()
     pictures: Path | None = None
     masks: Path | str | None = None
@@ -46,6 +53,8 @@ class Choices:
             raise CaptureError(f"holdout is {self.holdout}; every second view is the most that can be withheld")
         if self.labels is not None and self.parser is None:
             raise CaptureError("labels need the parser that made them; state its name or a JSON file of names by id")
+        if self.mesh == HULL and self.masks == "silhouette":
+            raise CaptureError("mesh hull is carved from masks, so masks cannot be its silhouette; name masks or grabcut")
         for folder in (self.masks, self.labels, self.pictures):
             if isinstance(folder, Path) and not folder.is_dir():
-                raise CaptureError(f"{folder}: is not a folder; name one, or of masks alpha or silhouette")
+                raise CaptureError(f"{folder}: is not a folder; name one, or of masks {', '.join(MASKS)}")

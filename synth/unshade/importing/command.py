@@ -48,7 +48,9 @@ def _parser() -> argparse.ArgumentParser:
         "path", type=Path, help="transforms.json, the COLMAP model or project, the XML file, the data set's folder"
     )
     parser.add_argument("-o", "--out", type=Path, required=True, help="the capture's folder")
-    parser.add_argument("--mesh", type=Path, help="the mesh, an OBJ file with texture coordinates")
+    parser.add_argument(
+        "--mesh", metavar="FILE|hull", help="the mesh, an OBJ file with texture coordinates, or hull: carved from the masks"
+    )
     parser.add_argument(
         "--object",
         action="append",
@@ -62,8 +64,8 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument(
         "--masks",
-        metavar="DIR|alpha|silhouette",
-        help="a folder of masks named like the photographs, their alpha, or the mesh's silhouette",
+        metavar="DIR|alpha|silhouette|grabcut",
+        help="a folder of masks named like the photographs, their alpha, the mesh's silhouette, or GrabCut's",
     )
     parser.add_argument(
         "--labels", type=Path, metavar="DIR", help="label pictures of a face parser, named like the photographs"

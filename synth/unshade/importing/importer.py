@@ -17,14 +17,16 @@ from ..files.folder import content_hash
 from .capture_folder import CaptureWriter
 from .changes import PLAIN, Change
 from .chart_mesh import ChartMesh, read_mesh
-from .choices import Choices
+from .choices import HULL, MASKS, Choices
 from .colmap_model import read_colmap
 from .detective import FITTING, SOUND, Verdict, examine, overlap
 from .emily_folder import read_emily
+from .grabcut import discs_of_common_ball
+from .hull import carve
 from .metashape_file import read_metashape
 from .moving_light import LightMotion, LitView, light_motion
 from .parser_labels import LABELS, name_table
-from .photographs import ImportedView, Reading, take, up_directions
+from .photographs import ImportedView, Reading, camera_of, take, up_directions
 from .pictures import Photograph, read_photograph
 from .pinhole import Pinhole
 from .placement import UNITS, Placement, place
@@ -38,7 +40,6 @@ FORMATS = ("transforms", "colmap", "metashape", "emily")
 
 Progress = Callable[[int, int, str], object]
 AnyPath = str | os.PathLike[str]
-
 
 _EXAMINED = 8
 """Views that the detective examines."""
@@ -75,10 +76,11 @@ def import_capture(
     """Bring a capture of ``format`` (``transforms``, ``colmap``, ``metashape``, ``emily``) at ``path`` into the
     capture folder ``out``, with ``import.json``, which lists the assumptions; returns the folder.
 
-    ``mesh`` is an OBJ with texture coordinates, of which ``objects`` are the face; ``pictures`` the folder of
-    the photographs, where the files do not name it. ``masks`` is a folder of masks, ``alpha`` (that of the
-    photographs) or ``silhouette`` (of the mesh); by default those that the file names, else alpha, else the
-    silhouette. ``labels`` is a folder of a face parser's pictures and ``parser`` its name or a JSON file of
+    ``mesh`` is an OBJ with texture coordinates, of which ``objects`` are the face, or ``hull``: the visual hull of
+    the masks. ``pictures`` is the folder of the photographs, where the files do not name it. ``masks`` is a folder of
+    masks, ``alpha`` (that of the photographs), ``silhouette`` (of the mesh) or ``grabcut`` (what differs from the
+    surroundings of the place that the cameras look at); by default those that the file names, else alpha, else the
+    silhouette, or for a hull ``grabcut``. ``labels`` is a folder of a face parser's pictures and ``parser`` its name or a JSON file of
     names by id. ``curve`` is the photographs' transfer curve (``auto``, ``srgb``, ``linear``, ``rec709``,
     ``gamma=2.2``), ``brackets`` how many exposures each view has, ``even_exposure`` divides by what EXIF
     says the camera let through. ``holdout`` withholds every n-th view (from the n-th on) or those named;
@@ -95,10 +97,10 @@ def import_capture(
         return None if value is None else Path(value)
 
     choices = Choices(
-        mesh=path_of(mesh),
+        mesh=mesh if mesh == HULL else path_of(mesh),
         objects=tuple(objects),
         pictures=path_of(pictures),
-        masks=masks if isinstance(masks, str) and masks in ("alpha", "silhouette") else path_of(masks),
+        masks=masks if isinstance(masks, str) and masks in MASKS else path_of(masks),
         labels=path_of(labels),
         holdout=holdout if holdout is None or isinstance(holdout, int) else tuple(holdout),
         leave_out=tuple(leave_out),
@@ -132,18 +134,42 @@ class _Import:
         self.light: LightMotion | None = None
         mesh = choices.mesh or source.mesh
         if mesh is None:
-            raise CaptureError(f"{source.origin}: names no mesh; name an OBJ file with texture coordinates (mesh)")
-        self.mesh_file = mesh
-        self.mesh = read_mesh(mesh, choices.objects or source.objects)
-        fault, warning, _ = self.mesh.layout_faults()
-        if fault is not None:
-            raise CaptureError(f"{mesh}: {fault}")
-        if warning is not None:
-            self._warn(f"the mesh {warning}")
+            raise CaptureError(
+                f"{source.origin}: names no mesh; name an OBJ file with texture coordinates, or let one be carved from "
+                "the masks (mesh hull)"
+            )
+        self.mesh_file = mesh if isinstance(mesh, Path) else None
+        if self.mesh_file is not None:
+            self.mesh = read_mesh(self.mesh_file, choices.objects or source.objects)
+            self._check_layout()
         self.source = self._with_files(source)
         self.withheld = withheld_views(self.source, choices.holdout)
         for words in left_out_by_reason(self.source):
             self._warn(words)
+
+    def _check_layout(self) -> None:
+        fault, warning, _ = self.mesh.layout_faults()
+        if fault is not None:
+            raise CaptureError(f"{self.mesh_file or 'mesh hull'}: {fault}")
+        if not self.mesh.has_own_uv:
+            self._warn("the mesh has no texture coordinates: it is unwrapped")
+        if warning is not None:
+            self._warn(f"the mesh {warning}")
+
+    def _carve(self, reading: Reading) -> None:
+        """Makes the mesh from all masks."""
+        evidence = []
+        for number, view in enumerate(self.source.views):
+            self.progress(number, len(self.source.views), f"mask of {view.name}")
+            taken = take(self.source, view, reading, self.notes)
+            if taken.mask is not None:
+                evidence.append(taken.evidence())
+        self.progress(0, len(self.source.views), "carving the hull")
+        self.mesh = carve(evidence)
+        self._warn(
+            f"the mesh is the visual hull of {len(evidence)} masks: concavities (eye sockets, beside the nose) are filled"
+        )
+        self._check_layout()
 
     def _with_files(self, source: Source) -> Source:
         """The views that are imported, with all their files."""
@@ -154,7 +180,7 @@ class _Import:
             source = without(source, named_views(source, choices.leave_out, "leave_out"), "is left out by request")
         source = present(source, skip_missing=choices.skip_missing)
         refuse_shared_photographs(source, choices.brackets, self._warn)
-        if choices.masks in ("alpha", "silhouette"):
+        if choices.masks in MASKS:
             source = replace(source, views=tuple(replace(view, mask=None) for view in source.views))
         masks = choices.masks if isinstance(choices.masks, Path) else None
         source = with_planes(source, masks, choices.labels, skip_missing=choices.skip_missing)
@@ -165,6 +191,8 @@ class _Import:
         self._keep_apart(out)
         first = read_photograph(self.source.views[0].picture, self.choices.curve)
         reading = self._reading(first)
+        if self.mesh_file is None:
+            self._carve(reading)
         verdict = self._look(reading)
         change = verdict.change if verdict is not None and verdict.change is not None and self.choices.apply else PLAIN
         mesh = self.mesh
@@ -222,6 +250,11 @@ class _Import:
         if choices.masks is None and not own and first.alpha is not None and first.alpha.min() < 0.5:
             alpha = True
             self.notes.add("masks are the photographs' alpha")
+        discs = {}
+        if choices.masks == "grabcut" or (self.mesh_file is None and not (own or alpha)):
+            cameras = [camera_of(source, view) for view in source.views]
+            discs = dict(zip((view.name for view in source.views), discs_of_common_ball(cameras)))
+            self._warn("masks are cut from the photographs by GrabCut; inspect them")
         names = name_table(choices.parser or "unshade")
         if choices.parser is None and source.label_names:
             names = {number: name if name in LABELS else "other" for number, name in source.label_names.items()}
@@ -232,7 +265,7 @@ class _Import:
                     f"{source.views[0].picture}: has no exposure time in its EXIF; keep it, or even exposures beforehand"
                 )
             reference = first.exposure
-        return Reading(choices.curve, choices.brackets, reference, alpha, choices.masks == "silhouette", names)
+        return Reading(choices.curve, choices.brackets, reference, alpha, choices.masks == "silhouette", names, discs)
 
     def _look(self, reading: Reading) -> Verdict | None:
         """Verdict of the detective on some views; a change that fixes them is an error unless it is to be made."""
@@ -321,7 +354,9 @@ class _Import:
 
     def _key(self) -> str:
         """All that determines the output; for photographs their sizes and times."""
-        parts = [self.format, str(self.path), repr(self.choices), content_hash(self.mesh_file)]
+        parts = [self.format, str(self.path), repr(self.choices)]
+        if self.mesh_file is not None:
+            parts.append(content_hash(self.mesh_file))
         for view in self.source.views:
             parts.append(f"{view!r}")
             files = [file for file in (view.picture, view.mask, view.label) if file is not None and file.is_file()]
@@ -332,13 +367,13 @@ class _Import:
         self, reading: Reading, verdict: Verdict | None, placement: Placement, seen: ViewStatistics
     ) -> dict[str, Any]:
         choices, stated = self.choices, len(self.source.views) + len(self.source.left_out)
-        masks = "alpha" if reading.alpha else "silhouette"
+        masks = "grabcut" if reading.discs else "alpha" if reading.alpha else "silhouette"
         if any(view.mask is not None for view in self.source.views):
             masks = "files"
         return {
             "format": 1,
             "unshade": _native.__version__,
-            "source": {"format": self.format, "path": str(self.path), "mesh": str(self.mesh_file)},
+            "source": {"format": self.format, "path": str(self.path), "mesh": str(self.mesh_file or HULL)},
             "views": {view.name: str(view.picture) for view in self.source.views},
             "left_out": [{"name": name, "reason": reason} for name, reason in self.source.left_out],
             "withheld": sorted(self.withheld),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ..errors import CaptureError
 from .brackets import bracket, merged
 from .detective import Evidence
+from .grabcut import cut
 from .lens import undistorted
 from .orientation import inverse, oriented, shown_up
 from .parser_labels import our_labels
@@ -96,8 +97,8 @@ class ImportedView:
 @dataclass(frozen=True)
 class Reading:
     """How to read pictures: their curve, pictures of one bracket, the exposure that all are scaled to,
-    whether masks are the photographs' alpha or the mesh's silhouette whatever there is, and the names of the ids
-    of label pictures."""
+    whether masks are the photographs' alpha or the mesh's silhouette whatever there is, the names of the ids
+    of label pictures, and by view's name the disc that holds the head, where masks are cut by GrabCut."""
 
     curve: str
     brackets: int
@@ -105,6 +106,7 @@ class Reading:
     alpha: bool
     silhouette: bool
     names: dict[int, str]
+    discs: dict[str, tuple[float, float, float]] = field(default_factory=dict)
 
 
 def take(source: Source, view: SourceView, reading: Reading, notes: set[str]) -> ImportedView:
@@ -155,10 +157,20 @@ def take(source: Source, view: SourceView, reading: Reading, notes: set[str]) ->
         camera=camera,
         lens=view.lens,
         radiance=radiance,
-        mask=_mask(view, reading, photograph, orientation, beside),
+        mask=cut(radiance, reading.discs[view.name])
+        if reading.discs
+        else _mask(view, reading, photograph, orientation, beside),
         labels=_labels(view, reading, beside),
         photograph=photograph,
     )
+
+
+def camera_of(source: Source, view: SourceView) -> Pinhole:
+    """The camera of a view, by its photograph's header. Raises `CaptureError` or `PictureError`."""
+    orientation, width, height = orientation_and_size(view.picture)
+    if orientation >= 5 and _applied(source, view, orientation, width, height):
+        width, height = height, width
+    return _camera(view, width, height, set())
 
 
 def up_directions(source: Source, cameras: list[Matrix], *, turned: bool) -> UpDirections:
