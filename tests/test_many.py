@@ -12,10 +12,12 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 from test_run import digest
 
 from conftest import CASE, HERE, TINY, copy_without, unshade
+from unshade.files.pictures import write_exr
 
 
 @pytest.fixture(scope="module")
@@ -97,6 +99,20 @@ def test_dry_run_counts_cached_stages_and_writes_nothing(tiny_run: Path, tmp_pat
     (tmp_path / "mine" / "thesis.tex").write_text("years")
     done = unshade("run", TINY, "-o", tmp_path / "mine", "--dry-run", check=False)
     assert done.returncode == 2 and "mine" in done.stderr
+
+
+def test_environment_maps_are_found_in_the_users_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "hall.toml").write_text('name = "hall"\nkind = "envmap"\npath = "hall.exr"\n')
+    light = f'name = "halls"\nlights = ["{tmp_path}/hall.toml"]\nscene = "{TINY.parent}/tiny-scene.toml"'
+    suite = TINY.read_text().replace('name = "tiny"\nscene = "tiny-scene.toml"', light)
+    (tmp_path / "suite.toml").write_text(suite)
+    missing = unshade("run", tmp_path / "suite.toml", "-o", tmp_path / "run", "--dry-run", check=False)
+    assert missing.returncode == 2 and f"{tmp_path}/hall.exr" in missing.stderr
+    pictures = tmp_path / "pictures"
+    pictures.mkdir()
+    write_exr(pictures / "hall.exr", {"": np.ones((8, 16, 3), np.float32)})
+    monkeypatch.setenv("UNSHADE_LIGHTS", str(pictures))
+    unshade("run", tmp_path / "suite.toml", "-o", tmp_path / "run", "--dry-run")
 
 
 def test_dry_run_estimates_time_and_disk_from_earlier_runs(tiny_run: Path, wide: Path, tmp_path: Path) -> None:

@@ -313,7 +313,7 @@ def test_an_edited_module_is_run_again_and_nothing_else(programs: Path, tmp_path
         ),
         ('name = "a"\ncommand = ["python", "gone.py", "{capture}", "{maps}"]', "gone.py"),
         ('name = "a"\ncommand = ["python", "bad.py", "{capture}", "{maps}"]', "bad.py:2"),
-        ('name = "a"\ncommand = ["sh", "x.sh", "{capture}"]', "never says {maps}"),
+        ('name = "a"\ncommand = ["sh", "x.sh", "{capture}"]', "does not contain {maps}"),
         ('name = "a"\npython = "gone:solve"', "suite.toml:6: python: there is no module gone"),
         ('name = "a"\npython = "ok:resolve"', "has no function resolve"),
         ('name = "a"\npython = "ok:solve"\ninputs = ["weights.bin"]', "suite.toml:7: inputs: there is no"),

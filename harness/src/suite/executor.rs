@@ -10,7 +10,7 @@ use std::time::Instant;
 use super::error::RunError;
 use super::file::Suite;
 use super::finished::{Provenance, Record};
-use super::output::Output;
+use super::output::OutputHashes;
 use super::plan::{Stage, StageKind};
 use super::preflight::ResolvedMethod;
 use super::program::Usage;
@@ -32,7 +32,7 @@ pub(super) struct StageExecutor<'a> {
     /// Methods whose maps are made anew.
     pub redo: &'a [String],
     /// Hashes of photographed captures, by case: gigabytes, read once.
-    photographed: Mutex<BTreeMap<usize, Output>>,
+    photographed: Mutex<BTreeMap<usize, OutputHashes>>,
     /// Hashes of what programs import.
     pub trees: TreeHashes,
     /// Code of this program, part of keys.
@@ -43,7 +43,7 @@ pub(super) struct StageExecutor<'a> {
 pub(super) const DEBUG: &str = "debug";
 
 /// Hashes of finished stages' outputs, by their ids.
-pub(super) type Contents = BTreeMap<String, Output>;
+pub(super) type Contents = BTreeMap<String, OutputHashes>;
 
 /// A stage that is finished.
 pub(super) struct StageResult {
@@ -67,13 +67,13 @@ impl<'a> StageExecutor<'a> {
     }
 
     /// The hashes of a case's photographed capture; none of a rendered one.
-    pub fn photographed(&self, case: usize) -> io::Result<Option<Output>> {
+    pub fn photographed(&self, case: usize) -> io::Result<Option<OutputHashes>> {
         let Some(path) = &self.suite.cases[case].photographed else { return Ok(None) };
         let mut known = self.photographed.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(hash) = known.get(&case) {
             return Ok(Some(hash.clone()));
         }
-        let hash = Output::of(StageKind::Capture, path)?;
+        let hash = OutputHashes::of(StageKind::Capture, path)?;
         known.insert(case, hash.clone());
         Ok(Some(hash))
     }
@@ -101,8 +101,8 @@ impl<'a> StageExecutor<'a> {
         self.methods.get(stage.method?)
     }
 
-    /// Whether a stage is done whatever was kept.
-    pub fn again(&self, stage: &Stage) -> bool {
+    /// Returns whether `--redo` names the stage's method.
+    pub fn is_redo(&self, stage: &Stage) -> bool {
         let method = self.method(stage).filter(|_| stage.kind == StageKind::Maps);
         method.is_some_and(|found| self.redo.contains(&found.method.id))
     }
@@ -116,7 +116,7 @@ impl<'a> StageExecutor<'a> {
     ) -> Result<Option<StageResult>, RunError> {
         let path = self.path(stage);
         let Ok(key) = self.key(stage, contents) else { return Ok(None) };
-        let record = records.valid(&stage.id, &key.hash, &path)?;
+        let record = records.find_or_restore(&stage.id, &key.hash, &path)?;
         Ok(record.map(|record| StageResult { record, kept: true }))
     }
 
@@ -143,9 +143,9 @@ impl<'a> StageExecutor<'a> {
     ) -> Result<StageResult, RunError> {
         let key = self.key(stage, contents)?;
         let path = self.path(stage);
-        if self.again(stage) {
+        if self.is_redo(stage) {
             records.forget(&stage.id, &key.hash)?;
-        } else if let Some(record) = records.valid(&stage.id, &key.hash, &path)? {
+        } else if let Some(record) = records.find_or_restore(&stage.id, &key.hash, &path)? {
             return Ok(StageResult { record, kept: true });
         }
         records.set_aside(&stage.id, &key.hash, &path)?;
@@ -154,8 +154,8 @@ impl<'a> StageExecutor<'a> {
         }
         let start = Instant::now();
         let usage = make(&path)?;
-        let output = Output::of(stage.kind, &path)?;
-        records.adopt(&stage.id, &key.hash, &output)?;
+        let output = OutputHashes::of(stage.kind, &path)?;
+        records.write(&stage.id, &key.hash, &output)?;
         let effort = stage.effort(self.suite);
         let made = Provenance { at: now(), from: key.made_from, usage };
         let record = Record {

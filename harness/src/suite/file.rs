@@ -103,7 +103,8 @@ impl Suite {
         let methods = method::methods_of(path, &table)?;
         let privileged = methods.iter().find(|method| method.work().class() == Class::Privileged);
         if let (Some(method), false) = (privileged, photographed.is_empty()) {
-            let reason = format!("photographs have no true maps; leave {:?} out", method.id);
+            let reason =
+                format!("photographs have no true maps; remove the method {:?}", method.id);
             return Err(SceneError::in_table(path, &method.id, "name", reason));
         }
         cases.extend(photographed);

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::output::Output;
+use super::output::OutputHashes;
 use super::program::Usage;
 
 /// A finished stage: what went in, what came out.
@@ -10,7 +10,7 @@ use super::program::Usage;
 pub(super) struct Finished {
     pub key: String,
     #[serde(flatten)]
-    pub output: Output,
+    pub output: OutputHashes,
 }
 
 /// The circumstances in which an output was made. They are not part of its content: two runs differ in them.
@@ -34,7 +34,7 @@ pub struct Record {
     pub id: String,
     /// The hashes of its output.
     #[serde(flatten)]
-    pub output: Output,
+    pub output: OutputHashes,
     /// Wall time of the run that did it.
     pub seconds: f64,
     /// Size of its output, without what is no content.

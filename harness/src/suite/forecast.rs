@@ -82,7 +82,7 @@ pub fn forecast(
     let (mut ends, mut captures) = (Vec::new(), Vec::new());
     for stage in plan(suite) {
         let key = executor.key(&stage, &contents).ok();
-        let key = key.filter(|_| !executor.again(&stage));
+        let key = key.filter(|_| !executor.is_redo(&stage));
         let kept =
             key.and_then(|key| records.seems_valid(&stage.id, &key.hash, &executor.path(&stage)));
         let before = stage.after.iter().map(|at| ends[*at]).fold(0.0, f64::max);

@@ -7,7 +7,7 @@ use formats::content_hash::hash_parts;
 use super::cases::Case;
 use super::error::RunError;
 use super::executor::{Contents, StageExecutor};
-use super::output::Output;
+use super::output::OutputHashes;
 use super::plan::{Stage, StageKind};
 use super::preflight::ResolvedMethod;
 
@@ -28,13 +28,13 @@ pub(super) struct Inputs<'a> {
     pub executor: &'a StageExecutor<'a>,
     pub case: &'a Case,
     stage: &'a Stage,
-    photographed: Option<Output>,
+    photographed: Option<OutputHashes>,
     contents: &'a Contents,
 }
 
 impl<'a> Inputs<'a> {
     /// Hashes of the output of the stage of another kind, of the same case and method, unless it is unknown.
-    pub fn output(&self, kind: StageKind) -> Option<&Output> {
+    pub fn output(&self, kind: StageKind) -> Option<&OutputHashes> {
         let method = self.executor.method(self.stage).filter(|_| kind.has_method());
         self.contents.get(&kind.id(&self.case.id, method.map(|found| &*found.method.id)))
     }
@@ -45,7 +45,7 @@ impl<'a> Inputs<'a> {
     }
 
     /// Hashes of the case's capture.
-    pub fn capture(&self) -> Result<&Output, RunError> {
+    pub fn capture(&self) -> Result<&OutputHashes, RunError> {
         let rendered = || self.output(StageKind::Capture);
         self.photographed.as_ref().or_else(rendered).ok_or_else(|| self.missing())
     }

@@ -9,7 +9,7 @@ use toml::{Table, Value};
 
 use super::baseline::BaselineMethod;
 use super::competitor::Competitor;
-use super::program::{Gives, Limits, PLACES, Program, Start};
+use super::program::{Gives, Limits, PLACEHOLDERS, Program, Start};
 use super::relative_path;
 use super::scene::{self, SceneError};
 use super::sweep::replicates;
@@ -49,7 +49,7 @@ pub struct BaselineSettings {
 #[derive(Clone, Debug, PartialEq)]
 pub enum MethodKind {
     /// Our own solver.
-    Fields(SolverMethod),
+    Solver(SolverMethod),
     /// A program of the user.
     Program(Box<Program>),
     /// The true maps: the floor that rendering noise and the pipeline set.
@@ -62,7 +62,7 @@ pub enum MethodKind {
     Baseline(BaselineSettings),
 }
 
-/// A column of the table.
+/// A method of a suite: one `[[method]]` table, or one value of its `sweep` or `seeds`.
 #[derive(Clone, Debug)]
 pub struct Method {
     /// Names its folders; letters, digits, `-` and `_`.
@@ -151,6 +151,7 @@ pub(super) fn methods_of(path: &Path, table: &Table) -> Result<Vec<Method>, Scen
                 SceneError::in_table(path, name, "method", error.message())
             })
         };
+        // Before `sweep` and `seeds` are removed from the table.
         read(value.clone())?.check_keys(path)?;
         for (replicate, table) in replicates(path, value.as_table().unwrap_or(&Table::new()))? {
             let method = method_of(path, read(Value::Table(table))?)?;
@@ -188,7 +189,7 @@ fn method_of(path: &Path, table: MethodTable) -> Result<Method, SceneError> {
                 let texture_size = table.texture_size(path)?;
                 MethodKind::Baseline(BaselineSettings { baseline, texture_size })
             }
-            None => MethodKind::Fields(SolverMethod {
+            None => MethodKind::Solver(SolverMethod {
                 config: config_text(path, name, table.config.as_deref(), &table.set)?,
                 backend: table.backend.as_deref().map_or(Ok(Choice::Auto), str::parse).map_err(
                     |error: BackendError| {
@@ -241,7 +242,7 @@ impl MethodTable {
         if gives == Gives::Pictures && self.command.is_none() {
             return wrong("gives", "is pictures, which a function cannot return; write a command");
         }
-        if let Some(key) = PLACES.into_iter().find(|place| self.set.contains_key(*place)) {
+        if let Some(key) = PLACEHOLDERS.into_iter().find(|place| self.set.contains_key(*place)) {
             let reason =
                 format!("{key} is the name of a path that the program is given; rename it");
             return wrong("set", &reason);
@@ -274,7 +275,7 @@ impl MethodTable {
 
     /// Refuses keys that would do nothing.
     fn check_keys(&self, path: &Path) -> Result<(), SceneError> {
-        // Named one by one, so that a new key does not compile before it is said whose it is.
+        // Without `..`, so that a new key does not compile until a list below names the methods that support it.
         let Self {
             name,
             title: _,
@@ -302,7 +303,7 @@ impl MethodTable {
         };
         let foreign = command.is_some() || python.is_some();
         if command.is_some() && python.is_some() {
-            return refused("has both a command and a python function".to_owned());
+            return refused("has both command and python; remove one".to_owned());
         }
         let baseline = BaselineMethod::ALL.iter().any(|method| method.name() == name);
         let pictures = *gives == Some(Gives::Pictures);

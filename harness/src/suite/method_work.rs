@@ -52,7 +52,8 @@ pub(super) trait MethodWork {
     /// Key of its maps: what the method is given, and what it is.
     fn key(&self, resolved: &ResolvedMethod, inputs: &Inputs) -> Result<Key, RunError>;
 
-    /// The identity of the method on any machine and capture; none of a program that was not found.
+    /// Settings and code of the method, without paths of this machine or the capture: a leaderboard matches methods by
+    /// their hash. None for a program that was not found.
     fn identity(&self, resolved: &ResolvedMethod) -> Result<Option<Vec<String>>, RunError>;
 
     /// Writes the maps of a place from its capture.

@@ -1,4 +1,9 @@
-//! Suites: every face in every light and variant through every solver, resumable, nothing done twice.
+//! Suites: every face in every light and variant through every method, resumable, nothing done twice.
+//!
+//! `file` and `method` read the suite, `cases` multiplies faces, lights, variants and seeds. `preflight` checks
+//! everything before anything is rendered, `plan` lists the stages, `pool` schedules them. `executor` compares the
+//! key of a stage (`key`) with its record (`record`), then skips it, restores an earlier result, or runs it (`stage`,
+//! `methods`).
 
 mod baseline;
 mod calibration_runs;
@@ -64,7 +69,7 @@ pub use file::{NETS, RENDERERS, SCALES, Suite};
 pub use forecast::{Forecast, StageForecast, forecast};
 pub use method::{BaselineSettings, CompetitorMethod, Method, MethodKind, SolverMethod};
 pub use observer::Observer;
-pub use output::Output;
+pub use output::OutputHashes;
 pub use own_metrics::OwnMetrics;
 pub use packaged::set_folder as set_scenes_folder;
 pub use perceptual::lpips;

@@ -12,7 +12,7 @@ use super::program::given_files;
 
 /// Hashes of a stage's output, and of those parts of a capture that other stages read alone.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Output {
+pub struct OutputHashes {
     /// All of it.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub content: String,
@@ -24,7 +24,7 @@ pub struct Output {
     pub truth: String,
 }
 
-impl Output {
+impl OutputHashes {
     /// Hashes the output of a stage of this kind.
     pub(super) fn of(kind: StageKind, path: &Path) -> io::Result<Self> {
         let content = hash_path(path)?;
@@ -80,7 +80,7 @@ mod tests {
         for file in ["mesh.obj", "images/0.exr", "images/1.exr", "truth/diffuse_albedo.exr"] {
             write(file, file);
         }
-        let of = || Output::of(StageKind::Capture, root.path()).unwrap();
+        let of = || OutputHashes::of(StageKind::Capture, root.path()).unwrap();
         let before = of();
         for (file, given, truth) in [
             ("truth/relit/noon/1.exr", false, false),

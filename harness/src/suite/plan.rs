@@ -67,7 +67,7 @@ pub struct Stage {
     pub case: usize,
     /// The index of its method, of a stage that has one.
     pub method: Option<usize>,
-    /// Whether it is run if no valid output is there; else it and what follows from it are left out.
+    /// Whether `--method` and `--case` select it. If not, only a valid earlier output of it is used.
     pub wanted: bool,
     /// The indices, in the plan, of the stages whose outputs it reads.
     pub after: Vec<usize>,

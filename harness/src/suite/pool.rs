@@ -36,7 +36,7 @@ pub(super) struct Outcome {
 }
 
 /// The plan and how it is carried out.
-pub(super) struct Work<'a> {
+pub(super) struct PlanOptions<'a> {
     pub plan: &'a [Stage],
     /// How many workers there are.
     pub jobs: usize,
@@ -67,7 +67,7 @@ impl EventSender {
 /// Executes a plan. The first error that is not of a single method ends it.
 pub(super) fn run(
     executor: &StageExecutor,
-    Work { plan, jobs, failed }: Work,
+    PlanOptions { plan, jobs, failed }: PlanOptions,
     records: &Records,
     times: &mut Times,
     observer: &mut dyn Observer,
@@ -255,7 +255,7 @@ impl<'a> Schedule<'a> {
             },
         };
         if let Err(error) = noted {
-            // What else runs would go on for hours.
+            // The other running stages could continue for hours.
             self.executor.tools.interrupt.store(true, Ordering::Relaxed);
             self.fault.get_or_insert(error);
         }
@@ -273,12 +273,12 @@ impl<'a> Schedule<'a> {
         self.waiting.retain(|at| !left_out.contains(at));
     }
 
-    /// A method that fails leaves its cells empty, and the others run.
+    /// Marks a method as failed on a case: cancels its waiting stages and removes its earlier scores.
     fn fails(&mut self, name: String, reason: String) -> Result<(), RunError> {
         let suite = self.executor.suite;
         let of = |at: &usize| self.plan[*at].cell(suite).is_some_and(|other| other == name);
         self.waiting.retain(|at| !of(at));
-        // Scores of an earlier state of the method must not pass for this one's.
+        // Scores of an earlier state of the method must not pass for this one's: no key is empty, so they are moved away.
         let mut stages = self.plan.iter().enumerate();
         if let Some((_, scores)) =
             stages.find(|(at, stage)| stage.kind == StageKind::Scores && of(at))

@@ -23,7 +23,7 @@ pub(super) struct ResolvedMethod<'a> {
     pub method: &'a Method,
     /// Files of a program; none for methods that are ours.
     pub files: Option<ProgramFiles>,
-    /// Whether it can be run. Only one that is not to be run may be otherwise.
+    /// False if its program or backend is missing, which only a method that `--method` excludes may be.
     pub found: bool,
 }
 

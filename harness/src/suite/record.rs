@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use super::earlier::{Earlier, refuse_foreign};
 use super::finished::{Finished, Record};
-use super::output::Output;
+use super::output::OutputHashes;
 use super::plan::Stage;
 use super::size::size_of;
 
@@ -97,9 +97,14 @@ impl Records {
         Earlier::of(&self.run, id)
     }
 
-    /// A stage that was finished with this key and whose output is intact, with its cost in the run that did it. A
-    /// result of earlier settings is put back in its place for that.
-    pub fn valid(&self, id: &str, key: &str, output: &Path) -> Result<Option<Record>, FolderError> {
+    /// Returns the record of an intact output with this key. Moves it back from the run's folder of earlier
+    /// results if it is there.
+    pub fn find_or_restore(
+        &self,
+        id: &str,
+        key: &str,
+        output: &Path,
+    ) -> Result<Option<Record>, FolderError> {
         let intact = |found: &Finished, path: &Path| {
             found.key == key && hash_path(path).is_ok_and(|hash| hash == found.output.content)
         };
@@ -112,14 +117,14 @@ impl Records {
             return Ok(None);
         }
         self.set_aside(id, key, output)?;
-        // The record first: without its output it is not believed, and the output is still found where it lies.
-        self.adopt(id, key, &found.output).map_err(FolderError::io(output))?;
+        // The record first: without its output it is not valid, and the output is still found where it lies.
+        self.write(id, key, &found.output).map_err(FolderError::io(output))?;
         earlier.put_back(key, output)?;
         Ok(Some(record))
     }
 
-    /// Checks an output by its size alone; nothing is read or moved, unlike in [`Self::valid`].
-    pub fn seems_valid(&self, id: &str, key: &str, output: &Path) -> Option<Output> {
+    /// Checks an output by its size alone; nothing is read or moved, unlike in [`Self::find_or_restore`].
+    pub fn seems_valid(&self, id: &str, key: &str, output: &Path) -> Option<OutputHashes> {
         let as_large = |_: &Finished| {
             let bytes = size_of(output).ok().filter(|bytes| *bytes > 0);
             let known = self.costs.get(id).map(|known| known.bytes);
@@ -153,15 +158,15 @@ impl Records {
     }
 
     /// The record of a stage whose output is kept, with its cost in the run that did it.
-    fn kept(&self, id: &str, hashes: Output, output: &Path) -> io::Result<Record> {
+    fn kept(&self, id: &str, hashes: OutputHashes, output: &Path) -> io::Result<Record> {
         let mut record = self.costs.get(id).cloned().unwrap_or_default();
         (record.id, record.output) = (id.to_owned(), hashes);
         record.bytes = size_of(output)?;
         Ok(record)
     }
 
-    /// Records an output that was made elsewhere.
-    pub fn adopt(&self, id: &str, key: &str, output: &Output) -> io::Result<()> {
+    /// Writes the key and the hashes of a finished output to `stages/<id>.json`.
+    pub fn write(&self, id: &str, key: &str, output: &OutputHashes) -> io::Result<()> {
         let record = Finished { key: key.to_owned(), output: output.clone() };
         atomic::write_file(&self.path(id), &serde_json::to_vec_pretty(&record)?)
     }

@@ -11,7 +11,7 @@ use super::error::RunError;
 use super::executor::{Contents, StageExecutor, StageResult};
 use super::file::Suite;
 use super::finished::Record;
-use super::output::Output;
+use super::output::OutputHashes;
 use super::plan::{StageKind, plan};
 use super::preflight;
 use super::processors::keep_to;
@@ -102,6 +102,6 @@ pub fn run_remote_stage(
 }
 
 /// Takes the output of a stage that lies in the run's folder, and was made elsewhere, for finished.
-pub fn adopt(run: &Path, key: &str, id: &str, output: &Output) -> Result<(), RunError> {
-    Ok(Records::of(run).adopt(id, key, output)?)
+pub fn adopt(run: &Path, key: &str, id: &str, output: &OutputHashes) -> Result<(), RunError> {
+    Ok(Records::of(run).write(id, key, output)?)
 }

@@ -20,7 +20,7 @@ use super::file::Suite;
 use super::manifest::{Ended, manifest};
 use super::observer::Observer;
 use super::plan::{Stage, StageKind, plan};
-use super::pool::{self, Work};
+use super::pool::{self, PlanOptions};
 use super::preflight;
 use super::program::{self, copy_folder};
 use super::record::{Records, Times};
@@ -128,7 +128,7 @@ pub(super) fn stages(
     let made_elsewhere = elsewhere.records.len();
     let records = records.with(elsewhere.records);
     let mut counted = Counted { observer, total: plan.len() + 1 };
-    let work = Work { plan: &plan, jobs: options.jobs, failed: elsewhere.failed };
+    let work = PlanOptions { plan: &plan, jobs: options.jobs, failed: elsewhere.failed };
     let done = pool::run(&executor, work, &records, &mut times, &mut counted);
     times.write()?;
     let mut done = done?;
@@ -228,7 +228,7 @@ fn prepare(
     let mut pending = Vec::new();
     for stage in plan.iter().filter(|stage| stage.kind == StageKind::Capture && stage.wanted) {
         let key = executor.key(stage, &Contents::new())?.hash;
-        if records.valid(&stage.id, &key, &executor.path(stage))?.is_none() {
+        if records.find_or_restore(&stage.id, &key, &executor.path(stage))?.is_none() {
             pending.push(&suite.cases[stage.case]);
         }
     }

@@ -265,7 +265,9 @@ pub(super) fn resolve_files(origin: &Path, table: &mut Table) {
     for key in FILES {
         if let Some(Value::String(path)) = table.get_mut(key) {
             let mut file = beside(origin, path);
-            if let (false, "path", Some(folder)) = (file.exists(), key, std::env::var_os(LIGHTS_FOLDER)) {
+            if let (false, "path", Some(folder)) =
+                (file.exists(), key, std::env::var_os(LIGHTS_FOLDER))
+            {
                 file = Path::new(&folder).join(path);
             }
             *path = std::path::absolute(&file).unwrap_or(file).to_string_lossy().into_owned();

@@ -67,7 +67,7 @@ mod tests {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/suites/ci.toml");
         let suite = Suite::open(path.as_ref()).unwrap();
         let config = |suite: &Suite| match &suite.methods[0].kind {
-            MethodKind::Fields(solver) => solver::Config::from_toml(&solver.config).unwrap(),
+            MethodKind::Solver(solver) => solver::Config::from_toml(&solver.config).unwrap(),
             _ => panic!("the first method is not our solver"),
         };
         let given = config(&suite);

@@ -19,6 +19,7 @@ from ..camera.camera import Camera
 from ..errors import SolveError
 from ..render.lights.conventions import LUMINANCE, directions, solid_angles
 from ..render.scene import ChartMaps, HeadScene
+from ..scene_file import passes_for
 from .regions import regions
 from .texel_samples import TexelSamples, sample_texels
 
@@ -51,6 +52,8 @@ def fit(
     capture: Capture, *, texture_size: int, samples: int, basis_steps: int, free_steps: int, rows: int = 16, seed: int = 0
 ) -> Fit:  # fmt: skip
     """The fitted scene, with its maps; see `recover`."""
+    if passes_for(samples) is None:
+        raise SolveError(f"path-traced: samples is {samples}, which stratified passes cannot share; use 4, 8 or 16")
     texels = sample_texels(capture, texture_size)
     region = texels.filled(regions(capture, texels)[:, None])[..., 0].astype(np.uint32)
     mesh = SimpleNamespace(**{key: np.asarray(value) for key, value in capture.mesh.items()}, uv=capture.mesh["uvs"])

@@ -48,9 +48,9 @@ use truth::{Identity, Truth};
 
 /// Scores a maps folder, and the pictures relit with it, against the capture's truth.
 ///
-/// Maps, views and pictures that a solver did not write have no rows; a folder with none of them
-/// is refused. What is likely wrong with the maps is looked for without the truth, and noted. Of a
-/// capture without a truth, pictures are held against its withheld photographs.
+/// Missing maps, views and pictures have no rows; a folder with none of them is an error. Likely faults
+/// of the maps, which show without the truth, are listed in `findings`. For a capture without truth,
+/// pictures are compared with its withheld photographs.
 pub fn score(capture: &Path, maps: &Path, relit: Option<&Path>) -> Result<Scores, ScoreError> {
     if is_photographed(capture) {
         return photographs::score(capture, maps, relit);

@@ -81,7 +81,7 @@ fn seeds_make_cases_of_the_renderer_and_methods_of_our_solver() {
     for (method, seed) in suite.methods.iter().zip([1, 2]) {
         assert_eq!(method.id, format!("paper-seed{seed}"));
         assert_eq!(method.replicate, Some(("paper".to_owned(), seed)));
-        let MethodKind::Fields(solver) = &method.kind else { panic!() };
+        let MethodKind::Solver(solver) = &method.kind else { panic!() };
         let config = solver.config.parse::<Table>().unwrap();
         assert_eq!(config["base"].as_str(), Some("paper"));
         assert_eq!(config["seed"].as_integer(), Some(seed.cast_signed()));
@@ -137,7 +137,7 @@ fn a_sweep_makes_a_method_of_each_combination_and_seeds_one_of_each() {
     );
     let ours = "name = \"fast\"\nsweep.maps.texture_size = [256, 512]";
     let ours = open(ours).unwrap().methods;
-    let MethodKind::Fields(solver) = &ours[1].kind else { panic!() };
+    let MethodKind::Solver(solver) = &ours[1].kind else { panic!() };
     let config = solver.config.parse::<Table>().unwrap();
     assert_eq!(ours[1].id, "fast-texture_size512");
     assert_eq!(config["maps"]["texture_size"].as_integer(), Some(512));
@@ -194,7 +194,7 @@ fn every_light_is_relit_in_all_the_others() {
     let hall = suite.cases[1].scene.table["light"]["path"].as_str().unwrap();
     assert_eq!(Path::new(hall), root.path().join("lights/hall.exr"));
     assert_eq!(suite.cases[0].scene.table["render"]["width"].as_integer(), Some(16));
-    let MethodKind::Fields(solver) = &suite.methods[0].kind else { panic!() };
+    let MethodKind::Solver(solver) = &suite.methods[0].kind else { panic!() };
     assert_eq!(solver.config.parse::<Table>().unwrap()["seed"].as_integer(), Some(4));
     let MethodKind::Program(program) = &suite.methods[1].kind else { panic!() };
     let words = ["run", "{capture}", "{maps}"].map(str::to_owned).to_vec();
@@ -291,7 +291,7 @@ fn a_competitor_is_named_with_its_settings_and_has_a_class() {
     assert!(wrong.contains("config"), "{wrong}");
     // Under a configuration, it is our solver's name for once.
     let ours = open("name = \"sh-lambert\"\nconfig = \"fast\"\n").unwrap();
-    assert!(matches!(ours.methods[0].kind, MethodKind::Fields(_)));
+    assert!(matches!(ours.methods[0].kind, MethodKind::Solver(_)));
 }
 
 #[test]
@@ -303,7 +303,7 @@ fn every_suite_of_the_project_can_be_read() {
         let suite = Suite::open(&path).unwrap();
         assert_eq!(path.file_stem().unwrap().to_str(), Some(suite.name.as_str()));
         for method in &suite.methods {
-            if let MethodKind::Fields(solver) = &method.kind {
+            if let MethodKind::Solver(solver) = &method.kind {
                 solver::Config::from_toml(&solver.config).unwrap();
             }
         }

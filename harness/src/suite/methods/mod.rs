@@ -17,7 +17,7 @@ impl MethodKind {
     /// The properties and the work of methods of this kind.
     pub(super) fn work(&self) -> &dyn MethodWork {
         match self {
-            Self::Fields(solver) => solver,
+            Self::Solver(solver) => solver,
             Self::Program(program) => &**program,
             Self::Oracle => &FromTruth::Oracle,
             Self::LabelMeans => &FromTruth::LabelMeans,
@@ -29,7 +29,7 @@ impl MethodKind {
     /// Adds to every seed that the method states, or varies the last digits of what it reads.
     pub(super) fn reseed(&mut self, add: i64, vary: Vary) -> Result<(), Fault> {
         match self {
-            Self::Fields(solver) => solver.reseed(add, vary),
+            Self::Solver(solver) => solver.reseed(add, vary),
             Self::Program(program) if vary != Vary::Rounding => {
                 program.reseed(add);
                 Ok(())

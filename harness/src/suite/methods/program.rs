@@ -28,7 +28,7 @@ impl MethodWork for Program {
             let reason = format!("there is no {}; name a file or folder", missing.display());
             return Err(("inputs", reason));
         }
-        Program::find(self, ours).map(Some).map_err(|reason| (Program::key(self), reason))
+        Program::find(self, ours).map(Some).map_err(|reason| (Program::toml_key(self), reason))
     }
 
     fn key(&self, resolved: &ResolvedMethod, inputs: &Inputs) -> Result<Key, RunError> {

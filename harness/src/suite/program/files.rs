@@ -80,13 +80,13 @@ impl Program {
             words.split_first().ok_or("command is empty; name a program".to_owned())?;
         for place in ["{capture}", "{maps}"] {
             if !arguments.iter().any(|word| word.contains(place)) {
-                return Err(format!("command never says {place}, so the program cannot know it"));
+                return Err(format!("command does not contain {place}; add it as an argument"));
             }
         }
         if self.gives == Gives::Maps && arguments.iter().any(|word| word.contains("{lights}")) {
             return Err(
-                "command says {lights}, which maps are made without; state gives = \"pictures\" \
-                        if it relights"
+                "command contains {lights}, which only methods with gives = \"pictures\" get; \
+                        add gives, or remove {lights}"
                     .to_owned(),
             );
         }
@@ -168,7 +168,7 @@ impl Program {
         let answer: Answer = serde_json::from_slice(&output.stdout).map_err(|_| {
             let said = String::from_utf8_lossy(&output.stderr).trim().to_owned();
             let last = said.lines().last().unwrap_or("no message").to_owned();
-            format!("{} cannot say what {name} is made of: {last}", python.display())
+            format!("{} cannot list the files of {name}: {last}", python.display())
         })?;
         match answer.error {
             Some(error) => Err(error),

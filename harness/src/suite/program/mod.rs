@@ -1,8 +1,8 @@
-//! Programs that are not ours, as methods of a suite.
+//! Third-party programs as methods of a suite.
 //!
-//! A program is handed a capture without anything of its withheld views but their cameras, in a
-//! folder of its own, and leaves a maps folder there. What it may read of the user's is what decides
-//! whether its earlier result is still valid: its own files and `inputs`.
+//! A program gets a copy of the capture without the pictures of withheld views, and writes a maps
+//! folder. Of the user's files it may read only its own files and `inputs`; a change of these runs
+//! it again.
 
 mod blind;
 mod confine;
@@ -30,7 +30,7 @@ use confine::Permissions;
 pub use files::ProgramFiles;
 pub use pictures::Gives;
 use spawn::Network;
-pub use start::{PLACES, Program, Start};
+pub use start::{PLACEHOLDERS, Program, Start};
 use watch::{End, Watched, last_line, watch};
 pub use watch::{Limits, Usage};
 
@@ -85,7 +85,7 @@ pub(super) fn clear_scratch(prefix: &str) {
 
 impl Program {
     /// The key of its table that names it.
-    pub fn key(&self) -> &'static str {
+    pub fn toml_key(&self) -> &'static str {
         match self.start {
             Start::Command(_) => "command",
             Start::Python(_) => "python",
@@ -103,7 +103,7 @@ impl Program {
     ) -> Result<Usage, RunError> {
         let failed = |reason: String| RunError::Program { name: name.to_owned(), reason };
         let output = Folder::begin(place.maps)?;
-        // Elsewhere than the run, whose truth a program has no business with.
+        // Outside the run's folder, because that holds the truth.
         let scratch = tempfile::Builder::new().prefix(place.scratch).tempdir()?;
         let [capture, results, own, lights] =
             ["capture", "results", "tmp", "lights"].map(|name| scratch.path().join(name));

@@ -44,7 +44,7 @@ pub struct Program {
 }
 
 /// Paths that a command is given, as it names them in braces, and `set`: no value of `set` has such a name.
-pub const PLACES: [&str; 5] = ["capture", "maps", "lights", "debug", "set"];
+pub const PLACEHOLDERS: [&str; 5] = ["capture", "maps", "lights", "debug", "set"];
 
 impl Program {
     /// The values that it is handed, as JSON: equal values give equal text.

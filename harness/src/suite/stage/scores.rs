@@ -41,6 +41,7 @@ impl StageWork for Scores {
         let [maps, relit] =
             [StageKind::Maps, StageKind::Relit].map(|kind| executor.output(stage, kind));
         let mut scores = score::score(&capture, &maps, Some(&relit))?;
+        // `solve.json` names the preset; the rows are those of the suite's method.
         if let Some(found) = executor.method(stage) {
             scores.solver.clone_from(&found.method.id);
         }
