@@ -25,9 +25,9 @@ from .texels import Texels
 from .vessels import VEIN_COLOUR, draw_vessels
 
 _UNDULATION = (
-    (22.0, 0.24),
-    (9.0, 0.07),
-    (4.5, 0.04),
+    (22.0, 0.12),
+    (9.0, 0.03),
+    (4.5, 0.02),
     (2.2, 0.028),
     (1.1, 0.014),
     (0.55, 0.008),

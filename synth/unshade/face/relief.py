@@ -46,8 +46,8 @@ def draw_relief(
     height = -PORE_MM * fine.pores - FURROW_MM * rough * fine.furrows
     bare = (1 - regions.lips) * (1 - 0.85 * regions.upper_lid)
     height += 0.022 * rough * bare * octaves(regions.points, 3.0, 3, 2 * texel, stream(spec.seed, "grain"))
-    # Natural skin has undulations of its own at other scales.
-    undulation = UNDULATION_MM if spec.detail == "smooth" else 0.6 * UNDULATION_MM
+    # Natural skin has undulations of its own; stronger ones become dark lumps where light grazes.
+    undulation = UNDULATION_MM if spec.detail == "smooth" else 0.3 * UNDULATION_MM
     height += undulation * octaves(regions.points, 9.0, 3, 2 * texel, stream(spec.seed, "undulation"))
     lips = regions.lips > 0
     height[lips] += _lip_creases(regions.points[lips], regions.lips[lips], texel, spec)
