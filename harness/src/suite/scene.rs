@@ -268,7 +268,7 @@ pub(super) fn resolve_files(origin: &Path, table: &mut Table) {
             if let (false, "path", Some(folder)) =
                 (file.exists(), key, std::env::var_os(LIGHTS_FOLDER))
             {
-                file = Path::new(&folder).join(path);
+                file = Path::new(&folder).join(path.as_str());
             }
             *path = std::path::absolute(&file).unwrap_or(file).to_string_lossy().into_owned();
         }
