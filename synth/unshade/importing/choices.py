@@ -9,7 +9,6 @@ from ..errors import CaptureError
 from .pictures import check_curve
 from .placement import PLACES, UNITS
 
-
 HULL = "hull"
 """The mesh that is carved from the masks."""
 
@@ -54,7 +53,9 @@ class Choices:
         if self.labels is not None and self.parser is None:
             raise CaptureError("labels need the parser that made them; state its name or a JSON file of names by id")
         if self.mesh == HULL and self.masks == "silhouette":
-            raise CaptureError("mesh hull is carved from masks, so masks cannot be its silhouette; name masks or grabcut")
+            raise CaptureError(
+                "mesh hull is carved from masks, so masks cannot be its silhouette; name masks or grabcut"
+            )
         for folder in (self.masks, self.labels, self.pictures):
             if isinstance(folder, Path) and not folder.is_dir():
                 raise CaptureError(f"{folder}: is not a folder; name one, or of masks {', '.join(MASKS)}")

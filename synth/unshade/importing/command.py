@@ -49,7 +49,9 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("-o", "--out", type=Path, required=True, help="the capture's folder")
     parser.add_argument(
-        "--mesh", metavar="FILE|hull", help="the mesh, an OBJ file with texture coordinates, or hull: carved from the masks"
+        "--mesh",
+        metavar="FILE|hull",
+        help="the mesh, an OBJ file with texture coordinates, or hull: carved from the masks",
     )
     parser.add_argument(
         "--object",
