@@ -27,7 +27,7 @@ class Page:
     """One tab. Events that tell of faults and of what was asked for are kept."""
 
     def __init__(self, address: str) -> None:
-        self._socket = websocket.create_connection(address, timeout=30, suppress_origin=True)
+        self._socket = websocket.create_connection(address, timeout=240, suppress_origin=True)
         self._count = 0
         self.faults: list[str] = []
         self.requested: list[str] = []
@@ -59,15 +59,17 @@ class Page:
                 return message["result"]
             self._hear(message)
 
-    def open(self, file: Path, width: int, height: int = 900) -> None:
-        """Loads a file in a window of so many CSS pixels."""
+    def open(self, file: Path, width: int, height: int = 900, fragment: str = "") -> None:
+        """Loads a file in a window of so many CSS pixels; ``fragment`` is the part of the address from #."""
         self._ask(
             "Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=width < 600
         )
-        self._loaded = False
-        self._ask("Page.navigate", url=file.resolve().as_uri())
-        while not self._loaded:
-            self._hear(json.loads(self._socket.recv()))
+        # Another fragment of the page that is shown would not load it again.
+        for address in ("about:blank", file.resolve().as_uri() + fragment):
+            self._loaded = False
+            self._ask("Page.navigate", url=address)
+            while not self._loaded:
+                self._hear(json.loads(self._socket.recv()))
 
     def run(self, script: str) -> Any:
         """The value of an expression, which may be a promise."""
@@ -82,6 +84,26 @@ class Page:
             assert time.monotonic() < end, f"never: {script}"
             time.sleep(0.05)
 
+    def before_scripts(self, script: str) -> None:
+        """Runs a script in each page that is opened from now on, before its own."""
+        self._ask("Page.addScriptToEvaluateOnNewDocument", source=script)
+
+    def mouse(self, *places: tuple[float, float]) -> None:
+        """Presses the left button at the first place, CSS pixels, moves through the others and releases it."""
+        (x, y), *others = places
+        button = {"button": "left", "buttons": 1, "clickCount": 1}
+        self._ask("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y)
+        self._ask("Input.dispatchMouseEvent", type="mousePressed", x=x, y=y, **button)
+        for x, y in others:
+            self._ask("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y, **button)
+        self._ask("Input.dispatchMouseEvent", type="mouseReleased", x=x, y=y, **button)
+
+    def give_file(self, selector: str, file: Path) -> None:
+        """Chooses a file in an input of the page."""
+        root = self._ask("DOM.getDocument")["root"]["nodeId"]
+        node = self._ask("DOM.querySelector", nodeId=root, selector=selector)["nodeId"]
+        self._ask("DOM.setFileInputFiles", nodeId=node, files=[str(file.resolve())])
+
     def picture(self, path: Path, whole: bool = False) -> None:
         """Saves what is to be seen, or the whole page, as PNG."""
         found = self._ask("Page.captureScreenshot", format="png", captureBeyondViewport=whole)
@@ -94,8 +116,8 @@ def browser(profile: Path) -> Iterator[Page]:
     program = find()
     assert program is not None
     profile.mkdir(parents=True, exist_ok=True)
-    # Without the sandbox, which root in a container does not have; it shows files of ours alone.
-    options = ["--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--remote-debugging-port=0"]
+    # Without the sandbox, which root in a container does not have; it shows files of ours alone. WebGL in software.
+    options = ["--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--hide-scrollbars", "--remote-debugging-port=0"]
     with (profile / "log.txt").open("w") as log:
         child = subprocess.Popen(
             [program, *options, f"--user-data-dir={profile}", "about:blank"], stderr=log, stdout=log

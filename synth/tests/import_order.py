@@ -17,7 +17,7 @@ from unshade.fingerprint import imports_of
 
 ROOMS = [
     "errors", "stopping", "cache_folder", "fingerprint", "srgb", "vectors", "tables", "documents", "commands", "exr", "thumbnails", "maps",
-    "perceptual", "metrics", "scores", "own_metrics", "stages", "studies",
+    "perceptual", "metrics", "scores", "own_metrics", "stages", "head_page", "studies",
     "face", "files", "own_head", "scene_file", "bookkeeping", "heads", "camera", "captured_mesh", "formation",
     "importing", "render", "surface", "cycles", "exporting", "methods",
     "figures", "history_chart", "cluster", "plugin", "stage", "__main__",

@@ -44,6 +44,7 @@ _NAMES = {
     "_native": "Capture __version__",
     "bookkeeping": "calibrate figure score_submission seal site table verify",
     "exr": "exr_channels read_exr write_exr",
+    "head_page": "HeadPage view",
     "importing": "import_capture",
     "importing.consistency": "consistency",
     "importing.maps": "import_maps",

@@ -12,6 +12,8 @@ from unshade.bookkeeping import verify as verify
 from unshade.exr import exr_channels as exr_channels
 from unshade.exr import read_exr as read_exr
 from unshade.exr import write_exr as write_exr
+from unshade.head_page import HeadPage as HeadPage
+from unshade.head_page import view as view
 from unshade.importing import import_capture as import_capture
 from unshade.importing.consistency import Consistency as Consistency
 from unshade.importing.consistency import consistency as consistency

@@ -9,6 +9,7 @@ use harness::suite::RunError;
 use report::ReportError;
 use scoring::check::CheckError;
 use scoring::score::ScoreError;
+use view::ViewError;
 
 /// An error that has a Python exception of its own.
 pub(super) trait Named: std::error::Error {
@@ -35,6 +36,20 @@ named! {
     scoring::compare::CompareError => "CompareError",
     scoring::metrics::MetricError => "MetricError",
     scoring::study::StudyError => "ScoreError",
+}
+
+impl Named for ViewError {
+    fn class(&self) -> &'static str {
+        match self {
+            Self::Capture(error) => error.class(),
+            Self::Maps(error) => error.class(),
+            Self::Picture(error) => error.class(),
+            Self::Compare { reason, .. } => reason.class(),
+            Self::Folder(error) => error.class(),
+            Self::Write { .. } => "StorageError",
+            Self::NoAlbedo(_) | Self::TooMany(_) => "MapsError",
+        }
+    }
 }
 
 /// A folder that may not be written is the same fault for all.
@@ -84,6 +99,7 @@ impl Named for RunError {
             Self::Score(error) => error.class(),
             Self::Check(error) => error.class(),
             Self::Report(error) => error.class(),
+            Self::View(error) => error.class(),
             Self::Compare(error) => error.class(),
             Self::Study(error) => error.class(),
             Self::Program { .. } | Self::Methods { .. } => "SolveError",

@@ -9,6 +9,7 @@ use serde::Serialize;
 use super::comparison_figures::{self, ComparisonFigure, Input, MethodFolders, Studio, Tile};
 use super::error::ReportError;
 use super::exports::{Export, Links};
+use super::heads::Head;
 use super::lead::{self, Lead};
 use super::link::WayToRun;
 use super::methods::{self as made, MethodRow};
@@ -36,6 +37,7 @@ pub(super) struct CaseView {
     regions: Vec<Region>,
     maps: Vec<ComparisonFigure>,
     lead: Option<Lead>,
+    head: Head,
     exports: [Links; 2],
     pub views: Vec<ComparisonFigure>,
     layers: Vec<ComparisonFigure>,
@@ -154,6 +156,7 @@ impl CaseView {
             table,
             complete,
             lead,
+            head: Head::write(case, &capture, &methods, &anchor, root)?,
             exports,
             regions: regions(columns),
             maps,

@@ -9,6 +9,7 @@ use formats::picture::PictureError;
 use scoring::compare::CompareError;
 use scoring::run::RunFileError;
 use scoring::score::ScoreError;
+use view::ViewError;
 
 /// Reasons why a report cannot be written; each message is one line.
 #[derive(Debug, thiserror::Error)]
@@ -49,6 +50,9 @@ pub enum ReportError {
         /// The operating system's error.
         reason: io::Error,
     },
+    /// The viewer of the heads cannot be written.
+    #[error(transparent)]
+    View(#[from] ViewError),
     /// The report must not be written where it was to be.
     #[error(transparent)]
     Folder(#[from] FolderError),

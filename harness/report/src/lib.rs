@@ -16,6 +16,7 @@ mod exports;
 mod figures;
 mod float_picture;
 mod framing;
+mod heads;
 mod lead;
 mod light;
 mod link;

@@ -13,6 +13,7 @@ use serde::Serialize;
 use super::case::CaseView;
 use super::error::ReportError;
 use super::exports::{Export, Links};
+use super::heads;
 use super::link::WayToRun;
 use super::matrix::{self, Matrix};
 use super::reference::Reference;
@@ -111,6 +112,7 @@ impl Page {
         let timing: Timing =
             run::read_json_if_present(&run.join("timing.json"))?.unwrap_or_default();
         let mut cases = Vec::new();
+        heads::write_viewer(root)?;
         for (done, (case, columns)) in manifest.cases.iter().zip(&columns).enumerate() {
             if !progress(done as u64, manifest.cases.len() as u64, &case.id) {
                 return Err(ReportError::Interrupted);

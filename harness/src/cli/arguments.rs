@@ -133,6 +133,17 @@ pub(super) enum Verb {
         #[arg(short, long)]
         out: PathBuf,
     },
+    /// Write the head in 3D as a page that opens offline: turn it, relight it, see its errors.
+    View {
+        /// The capture, with its truth or without.
+        capture: PathBuf,
+        /// The maps to show: up to three folders.
+        #[arg(required = true)]
+        maps: Vec<PathBuf>,
+        /// The page's folder.
+        #[arg(short, long)]
+        out: PathBuf,
+    },
     /// Draw a figure for a paper from finished runs: PNG, PDF, LaTeX, CSV.
     Figure(FigureArgs),
     /// Write the results of finished runs as tables: Markdown, LaTeX or CSV.

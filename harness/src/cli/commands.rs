@@ -7,6 +7,7 @@ use formats::atomic;
 use scoring::score;
 use scoring::study::{self, Study};
 use solver::Choice;
+use view::MethodMaps;
 
 use super::alone::alone;
 use super::arguments::{SolveArgs, SolverName, SynthArgs, Verb};
@@ -97,6 +98,11 @@ pub(super) fn run(
         Verb::Report { run, out } => {
             alone("report", observer, |step| suite::report(&run, &out, tools, step))?;
             Ok(Outcome::line(out.join("index.html").display()))
+        }
+        Verb::View { capture, maps, out } => {
+            let methods: Vec<_> = maps.into_iter().map(MethodMaps::named_by_folder).collect();
+            let page = alone("view", observer, |_| Ok(view::write(&capture, &methods, &out)?))?;
+            Ok(Outcome::line(page.display()))
         }
         Verb::Figure(arguments) => figure::figure(&arguments, tools, observer),
         Verb::Table { runs, out } => {

@@ -5,7 +5,7 @@ use clap::{Command, CommandFactory};
 use super::arguments::Cli;
 
 const GROUPS: [(&str, &[&str]); 7] = [
-    ("Evaluate", &["init", "run", "report", "score", "relight", "budget", "clean"]),
+    ("Evaluate", &["init", "run", "report", "view", "score", "relight", "budget", "clean"]),
     ("Methods", &["solve", "check"]),
     ("Captures", &["synth", "import"]),
     ("Assets", &["export"]),

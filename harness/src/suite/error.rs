@@ -45,6 +45,8 @@ pub enum RunError {
     #[error(transparent)]
     Viewer(#[from] ViewerError),
     #[error(transparent)]
+    View(#[from] view::ViewError),
+    #[error(transparent)]
     Bench(#[from] bench::BenchError),
     #[error("{name} failed: {reason}; the others are in {}", report.display())]
     Methods { name: String, reason: String, report: PathBuf },

@@ -1,0 +1,311 @@
+"""The page of a head in a browser: turned, relit, asked; its values against the files and its light against Mitsuba."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import browser
+import mitsuba as mi
+import numpy as np
+import pytest
+
+import unshade as package
+from conftest import CASE, unshade
+
+pytestmark = pytest.mark.skipif(browser.find() is None, reason="no Chromium here (Debian: apt install chromium)")
+
+METHODS = ("quick", "mean_texture")
+
+
+@pytest.fixture(scope="module")
+def folder(tiny_run: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    out = tmp_path_factory.mktemp("a head") / "page"
+    maps = [tiny_run / "maps" / CASE / name for name in METHODS]
+    unshade("view", tiny_run / "captures" / CASE, *maps, "-o", out)
+    return out
+
+
+@pytest.fixture(scope="module")
+def chromium(tmp_path_factory: pytest.TempPathFactory) -> Iterator[browser.Page]:
+    with browser.browser(tmp_path_factory.mktemp("browser")) as page:
+        yield page
+
+
+class Head:
+    """The page with its head drawn."""
+
+    def __init__(self, page: browser.Page, folder: Path) -> None:
+        self.page, self.folder = page, folder
+
+    def open(self, fragment: str = "", width: int = 1200) -> None:
+        self.page.open(self.folder / "index.html", width, fragment=fragment)
+        self.page.run("unshadeView.ready")
+
+    def choose(self, control: str, value: str) -> None:
+        """Sets a control and waits until the picture is drawn."""
+        self.page.run(f"""(async () => {{
+            const control = document.getElementById("{control}");
+            control.value = {json.dumps(value)};
+            control.dispatchEvent(new Event("change"));
+            control.dispatchEvent(new Event("input"));
+            await unshadeView.refresh();
+        }})()""")
+
+    def linear(self, pane: str, width: int = 64, height: int = 64) -> np.ndarray:
+        """Linear values (height, width, 4) of a pane."""
+        script = f"""(async () => {{
+            const pane = unshadeView.scene.panes.find(({{ title }}) => title === "{pane}");
+            await unshadeView.refresh();
+            return [...unshadeView.stage.linear(pane, {width}, {height})].map((x) => Number(x.toPrecision(7)));
+        }})()"""
+        return np.array(self.page.run(script), np.float32).reshape(height, width, 4)
+
+    def state(self) -> dict[str, Any]:
+        return self.page.run("JSON.parse(JSON.stringify(unshadeView.state))")
+
+
+@pytest.fixture
+def head(chromium: browser.Page, folder: Path) -> Iterator[Head]:
+    """The page, freshly loaded; whatever a test does with it, nothing fails and nothing is fetched from elsewhere."""
+    chromium.faults.clear()
+    chromium.requested.clear()
+    head = Head(chromium, folder)
+    head.open()
+    yield head
+    chromium.run("0")
+    assert chromium.faults == []
+    assert all(url.startswith(("file:", "data:", "blob:", "about:")) for url in chromium.requested)
+
+
+def test_the_head_is_turned_by_mouse_and_keyboard(head: Head) -> None:
+    before, picture = head.state()["camera"], head.linear("truth")
+    box = head.page.run("(({ x, y, width, height }) => [x, y, width, height])(document.getElementById('canvas').getBoundingClientRect())")
+    middle = (box[0] + box[2] / 6, box[1] + box[3] / 2)
+    head.page.mouse(middle, (middle[0] + 30, middle[1]), (middle[0] + 60, middle[1]))
+    turned = head.state()["camera"]
+    assert turned[0] < before[0] - 5 and turned[2] == pytest.approx(before[2], rel=1e-3)
+    assert np.abs(head.linear("truth") - picture).mean() > 0.01
+    assert head.state()["spot"] is None, "a drag is not a click"
+    head.page.run("""
+        stage = document.getElementById("stage"); stage.focus();
+        stage.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowUp" }))""")
+    assert head.state()["camera"][1] == pytest.approx(turned[1] + 5, abs=0.01)
+
+
+def test_a_lamp_lights_its_side_and_casts_shadows(head: Head) -> None:
+    head.choose("light", "lamp")
+    halves = []
+    for azimuth in (-80, 80):
+        head.page.run(f"unshadeView.state.lamp.azimuth = {azimuth}")
+        picture = head.linear("truth")[..., :3].sum(-1)
+        halves.append([picture[:, :32].sum(), picture[:, 32:].sum()])
+    assert halves[0][0] > 2 * halves[0][1] and halves[1][1] > 2 * halves[1][0]
+
+
+def test_the_lamps_light_is_that_of_the_path_tracer(head: Head, tiny_run: Path) -> None:
+    """Direct light of the true maps from a training view: 40 dB of sRGB values within the eroded mask."""
+    from unshade.camera.camera import Camera
+    from unshade.render.scene import HeadScene
+    from unshade.surface import read_surface
+
+    capture = tiny_run / "captures" / CASE
+    view = head.page.run("unshadeView.scene.views.list[0]")
+    head.page.run("""
+        unshadeView.jump(unshadeView.scene.views.list[0]);
+        Object.assign(unshadeView.state.lamp, { azimuth: 40, elevation: 35, distance: 0.7 })""")
+    head.choose("light", "lamp")
+    size, fine = 128, 4
+    found = head.linear("truth", size * fine, size * fine).reshape(size, fine, size, fine, 4).mean((1, 3))
+    lamp = head.page.run("({ position: unshadeView.stage.lamp.position.toArray(), intensity: unshadeView.stage.lamp.intensity })")
+
+    class Lamp:
+        lambert_light = None
+
+        def emitters(self) -> dict[str, Any]:
+            intensity = {"type": "rgb", "value": [lamp["intensity"]] * 3}
+            return {"lamp": {"type": "point", "position": lamp["position"], "intensity": intensity}}
+
+    surface = read_surface(capture / "truth", capture, None, print)
+    lit = HeadScene(surface.mesh, [], surface.maps).lit(Lamp())  # type: ignore[arg-type]
+    matrix = np.array(view["camera_to_world"]).reshape(4, 4).T
+    camera = Camera("000", size, size, view["focal"][0] * size / view["width"], matrix, True)
+    path = mi.load_dict({"type": "path", "max_depth": 2, "hide_emitters": True})
+    film = mi.render(lit.scene, sensor=camera.sensor(256), integrator=path, spp=256)
+    expected = np.array(film)[..., :3]
+    mask = found[..., 3] == 1
+    for axis in (0, 1):
+        mask &= np.logical_and.reduce([np.roll(mask, shift, axis) for shift in (-2, -1, 1, 2)])
+    assert mask.mean() > 0.15 and expected[mask].mean() > 0.05
+    curve = lambda x: np.where(x.clip(0, 1) <= 0.0031308, 12.92 * x.clip(0, 1), 1.055 * x.clip(1e-9, 1) ** (1 / 2.4) - 0.055)
+    psnr = -10 * np.log10(((curve(found[..., :3]) - curve(expected))[mask] ** 2).mean())
+    print(f"lamp against the path tracer: {psnr:.1f} dB")
+    assert psnr > 40
+
+
+def test_every_layer_is_shown(head: Head) -> None:
+    layers = head.page.run("[...document.getElementById('layer').options].map(({ value }) => value)")
+    assert {"shaded", "diffuse", "specular", "diffuse_albedo", "labels", "views", "error-diffuse_albedo"} <= set(layers)
+    seen = set()
+    for layer in layers:
+        head.choose("layer", layer)
+        seen.add(head.page.run("unshadeView.stage.draw(unshadeView.cells(), 1), document.getElementById('canvas').toDataURL()"))
+    assert len(seen) == len(layers)
+    head.choose("layer", "error-specular_normal")
+    assert "degrees" in head.page.run("document.getElementById('scale').textContent")
+
+
+def test_parts_add_up_and_errors_are_those_of_the_metrics(head: Head) -> None:
+    parts = {}
+    for layer in ("shaded", "diffuse", "specular"):
+        head.choose("layer", layer)
+        parts[layer] = head.linear("quick")[..., :3]
+    np.testing.assert_allclose(parts["shaded"], parts["diffuse"] + parts["specular"], atol=1e-5)
+    colours = np.random.default_rng(3).random((20, 2, 3))
+    script = "(pairs) => pairs.map(([p, g]) => unshadeView.ciede2000(unshadeView.lab(p), unshadeView.lab(g)))"
+    found = head.page.run(f"({script})({json.dumps(colours.tolist())})")
+    for (first, second), value in zip(colours, found):
+        expected = package.metrics.ciede2000_mean(first.reshape(1, 1, 3), second.reshape(1, 1, 3))
+        assert value == pytest.approx(expected, rel=1e-5)
+
+
+def test_a_click_tells_the_values_of_the_files(head: Head, tiny_run: Path) -> None:
+    head.choose("light", "even")
+    # The middle of the first pane's forehead.
+    cell = head.page.run("(({ x, y, width, height }) => [x, y, width, height])(unshadeView.cells()[0])")
+    box = head.page.run("(({ x, y }) => [x, y])(document.getElementById('canvas').getBoundingClientRect())")
+    head.page.mouse((box[0] + cell[0] + cell[2] * 0.5, box[1] + cell[1] + cell[3] * 0.42))
+    head.page.until("unshadeView.told")
+    u, v = head.state()["spot"]
+    told = head.page.run("unshadeView.told.panes.map(({ pane, values }) => ({ title: pane.title, values }))")
+    folders = {"truth": tiny_run / "captures" / CASE / "truth"} | {name: tiny_run / "maps" / CASE / name for name in METHODS}
+    assert [each["title"] for each in told] == list(folders)
+    for each in told:
+        assert "diffuse_albedo" in each["values"]
+        for name, found in each["values"].items():
+            picture = np.array(mi.Bitmap(str(folders[each["title"]] / f"{name}.exr")))
+            picture = picture.reshape(*picture.shape[:2], -1)
+            side = len(picture)
+            expected = picture[min(side - 1, int((1 - v) * side)), min(side - 1, int(u * side))]
+            # Half floats of an albedo, and of a normal's largest component.
+            step = 2.0**-14 if "albedo" in name else 2.0**-12
+            np.testing.assert_allclose(found, expected[: len(found)], atol=step * 1.001, rtol=2.0**-11)
+    observed = head.page.run("unshadeView.told.observations.map(({ radiance, weight }) => ({ radiance, weight }))")
+    assert 0 < len(observed) <= 4 and sum(each["weight"] for each in observed) == pytest.approx(1)
+    assert head.page.run("document.querySelectorAll('#story .card').length") == len(observed)
+    assert "texel" in head.page.run("document.querySelector('#story .facts').textContent")
+
+
+def test_observed_radiance_is_the_pictures(head: Head, tiny_run: Path) -> None:
+    told = head.page.run("""(async () => {
+        const view = unshadeView, place = view.placeAt(view.head, ...view.scene.panes[1].worst[0].uv);
+        const found = await view.observations(view.scene, place);
+        return found.map(({ camera, x, y, radiance }) => ({ name: camera.name, x, y, radiance }));
+    })()""")
+    assert told
+    for each in told:
+        picture = np.array(mi.Bitmap(str(tiny_run / "captures" / CASE / "images" / f"{each['name']}.exr")))[..., :3]
+        left, top = int(np.floor(each["x"] - 0.5)), int(np.floor(each["y"] - 0.5))
+        around = picture[top : top + 2, left : left + 2].reshape(-1, 3)
+        assert (np.array(each["radiance"]) <= around.max(0) * 1.005).all()
+        assert (np.array(each["radiance"]) >= around.min(0) * 0.995).all()
+
+
+def test_the_address_restores_the_state(head: Head) -> None:
+    fragment = (
+        "#camera=25,10,0.5,0,0,0.05&lens=20&light=lamp&lamp=-30,20,0.8&turn=0&layer=error-diffuse_albedo"
+        "&exposure=0.5&factor=0&panes=truth,method1&swipe=0.3"
+    )
+    head.open(fragment)
+    head.page.run("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    state = head.state()
+    assert state["layer"] == "error-diffuse_albedo" and state["swipe"] == 0.3 and state["shown"] == ["truth", "method1"]
+    assert state["lamp"] == {"azimuth": -30, "elevation": 20, "distance": 0.8} and state["exposure"] == 0.5
+    np.testing.assert_allclose(state["camera"], [25, 10, 0.5, 0, 0, 0.05], atol=1e-3)
+    picture, address = head.linear("mean_texture"), head.page.run("location.hash")
+    head.open(address)
+    assert head.state() == state
+    np.testing.assert_array_equal(head.linear("mean_texture"), picture)
+    edge = head.page.run("unshadeView.cells().map(({ left, right }) => [left, right])")
+    width = head.page.run("document.getElementById('stage').clientWidth")
+    assert edge == [[0, round(0.3 * width)], [round(0.3 * width), width]]
+    head.open("#camera=1,2&light=nonsense&layer=none&panes=nobody&lamp=x")
+    assert head.state()["layer"] == "shaded" and len(head.state()["shown"]) == 3
+
+
+def test_a_worst_spot_is_a_click_away(head: Head) -> None:
+    spots = head.page.run("[...document.querySelectorAll('#worst button')].map(({ textContent }) => textContent)")
+    values = [float(text.split(": ")[1].split()[0]) for text in spots]
+    assert 0 < len(spots) <= 10 and values == sorted(values, reverse=True)
+    head.page.run("document.querySelector('#worst button').click()")
+    head.page.until("document.querySelector('#story .facts')")
+    state = head.state()
+    assert state["spot"] and state["layer"] == "error-diffuse_albedo"
+
+
+def test_surroundings_from_a_file_are_exposed_as_lights_are(head: Head, tmp_path: Path) -> None:
+    """A file with the same radiance everywhere is the uniform light, whatever the radiance."""
+    package.write_exr(tmp_path / "grey.exr", np.full((16, 32, 3), 7.0, np.float32))
+    head.choose("light", "even")
+    expected = head.linear("truth")
+    head.page.give_file("#file", tmp_path / "grey.exr")
+    head.page.until("unshadeView.state.light === 'file0'")
+    found = head.linear("truth")
+    assert expected[..., :3].max() > 0.1
+    np.testing.assert_allclose(found, expected, atol=0.01)
+    package.write_exr(tmp_path / "square.exr", np.full((16, 16, 3), 7.0, np.float32))
+    head.page.give_file("#file", tmp_path / "square.exr")
+    head.page.until("document.getElementById('notice').textContent.includes('2 : 1')")
+
+
+def test_a_phones_width_is_enough(head: Head) -> None:
+    head.open(width=420)
+    assert head.page.run("document.documentElement.scrollWidth") <= 420
+    stage = head.page.run("(({ width, height }) => [width, height])(document.getElementById('stage').getBoundingClientRect())")
+    assert stage[0] == 420 and stage[1] >= 300
+    assert len(head.page.run("unshadeView.cells()")) == 3
+
+
+def test_a_report_links_to_its_heads_and_loads_them_when_opened(chromium: browser.Page, tiny_run: Path) -> None:
+    report = tiny_run / "report"
+    chromium.requested.clear()
+    chromium.open(report / "index.html", 1200)
+    link = chromium.run("document.querySelector('.case a[href^=\"heads/\"]').getAttribute('href')")
+    assert not any("heads/" in url for url in chromium.requested)
+    chromium.open(report / link, 1200)
+    chromium.run("unshadeView.ready")
+    assert chromium.run("unshadeView.scene.panes.map(({ title }) => title).length") == 3
+
+
+def test_a_notebook_shows_the_page_itself(chromium: browser.Page, tiny_run: Path, tmp_path: Path) -> None:
+    page = package.view(tiny_run / "captures" / CASE, tiny_run / "maps" / CASE / "quick")
+    (tmp_path / "notebook.html").write_text("<!doctype html><meta charset=utf-8>" + page._repr_html_())
+    chromium.open(tmp_path / "notebook.html", 1200)
+    chromium.until("frames[0].unshadeView?.ready", 60)
+    assert chromium.run("frames[0].unshadeView.ready.then(() => frames[0].unshadeView.scene.panes.length)") == 2
+    assert page.path.exists() and "HeadPage" in repr(page)
+
+
+def test_without_webgl_the_page_says_so_and_shows_pictures(folder: Path, tmp_path: Path) -> None:
+    with browser.browser(tmp_path) as page:
+        page.before_scripts("HTMLCanvasElement.prototype.getContext = new Proxy(HTMLCanvasElement.prototype.getContext, {"
+                            "apply: (get, canvas, given) => given[0] === 'webgl2' ? null : Reflect.apply(get, canvas, given) })")  # fmt: skip
+        page.open(folder / "index.html", 800)
+        page.run("unshadeView.ready")
+        assert "WebGL" in page.run("document.getElementById('notice').textContent")
+        assert page.run("document.querySelectorAll('#stills canvas').length") > 8
+        assert page.faults == []
+
+
+def test_bad_input_is_one_line_and_leaves_nothing(tiny_run: Path, tmp_path: Path) -> None:
+    capture, maps = tiny_run / "captures" / CASE, tiny_run / "maps" / CASE / "quick"
+    for arguments, said in [
+        ([capture, maps, maps, maps, maps], "at most 3"),
+        ([capture, tiny_run / "scores"], "diffuse_albedo.exr"),
+        ([tmp_path, maps], "transforms.json"),
+    ]:
+        done = unshade("view", *arguments, "-o", tmp_path / "page", check=False)
+        assert done.returncode == 2 and said in done.stderr and done.stderr.count("\n") == 1, done.stderr
+        assert not (tmp_path / "page").exists()
