@@ -236,10 +236,10 @@ def test_the_address_restores_the_state(head: Head) -> None:
 
 
 def test_a_worst_spot_is_a_click_away(head: Head) -> None:
-    spots = head.page.run("[...document.querySelectorAll('#worst button')].map(({ textContent }) => textContent)")
-    values = [float(text.split(": ")[1].split()[0]) for text in spots]
+    spots = head.page.run("[...document.querySelectorAll('#patches button')].map(({ textContent }) => textContent)")
+    values = [float(text.split()[0]) for text in spots]
     assert 0 < len(spots) <= 10 and values == sorted(values, reverse=True)
-    head.page.run("document.querySelector('#worst button').click()")
+    head.page.run("document.querySelector('#patches button').click()")
     head.page.until("document.querySelector('#story .facts')")
     state = head.state()
     assert state["spot"] and state["layer"] == "error-diffuse_albedo"

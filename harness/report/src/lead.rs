@@ -33,7 +33,8 @@ pub(super) struct LeadRow {
 pub(super) struct Made {
     pub title: String,
     pub kind: &'static str,
-    pub picture: Tile,
+    /// None where the method has no such picture.
+    pub picture: Option<Tile>,
     pub error: Option<Tile>,
     pub caption: String,
 }
@@ -68,15 +69,13 @@ pub(super) fn lead(
 
 fn row(figure: &ComparisonFigure, table: &Table, input: Option<&Tile>) -> Option<LeadRow> {
     let strip = figure.strips.first()?;
-    let made = strip.entries.iter().zip(&table.columns).filter_map(|(entry, column)| {
-        Some(Made {
-            title: column.title.clone(),
-            kind: column.kind,
-            picture: entry.picture.clone()?,
-            // After the factor, where there is one.
-            error: entry.errors.iter().rev().flatten().next().cloned(),
-            caption: entry.caption.clone(),
-        })
+    let made = strip.entries.iter().zip(&table.columns).map(|(entry, column)| Made {
+        title: column.title.clone(),
+        kind: column.kind,
+        picture: entry.picture.clone(),
+        // After the factor, where there is one.
+        error: entry.errors.iter().rev().flatten().next().cloned(),
+        caption: entry.caption.clone(),
     });
     let view = if strip.title.is_empty() { String::new() } else { format!(", {}", strip.title) };
     Some(LeadRow {

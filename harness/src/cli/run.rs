@@ -3,6 +3,8 @@
 use std::ops::Deref;
 use std::time::Instant;
 
+use report::ReportError;
+
 use super::arguments::RunArgs;
 use super::exit::{CHECK_FAILED, DONE};
 use super::outcome::Outcome;
@@ -29,8 +31,15 @@ pub(super) fn run_suite(
         return Ok(Outcome::line(forecast));
     }
     let start = Instant::now();
-    let summary = suite::run(&suite, &arguments.out, &options, tools, observer)?;
+    let run = arguments.out;
+    let summary = suite::run(&suite, &run, &options, tools, observer)?;
     let seconds = start.elapsed().as_secs_f64();
+    match report::means_in_lines(&[run]) {
+        Ok(lines) => lines.iter().for_each(|line| observer.message(line)),
+        // Every method failed, which is said below.
+        Err(ReportError::NoScores(_)) => {}
+        Err(error) => return Err(error.into()),
+    }
     let (ran, skipped) = (summary.ran, summary.skipped);
     observer.message(&format!("{ran} stages run, {skipped} still valid, {seconds:.0} s"));
     let count = summary.failed.len();

@@ -8,6 +8,7 @@ mod finished;
 mod join;
 mod setting;
 mod tables;
+mod terminal;
 
 #[cfg(test)]
 mod tests;
@@ -41,6 +42,16 @@ pub fn write_results(runs: &[PathBuf], out: &Path, command: &str) -> Result<(), 
         std::fs::create_dir_all(folder).map_err(|error| ReportError::write(folder, error))?;
     }
     atomic::write_file(out, text.as_bytes()).map_err(|error| ReportError::write(out, error))
+}
+
+/// The means of finished runs as lines for a terminal, the best of each row with a star.
+///
+/// # Errors
+/// If a run cannot be read, or nothing in it was scored.
+pub fn means_in_lines(runs: &[PathBuf]) -> Result<Vec<String>, ReportError> {
+    let runs: Vec<Finished> =
+        runs.iter().map(|run| Finished::read(run)).collect::<Result<_, _>>()?;
+    Ok(terminal::lines(&join::joined(runs)))
 }
 
 fn page(runs: &[Finished], command: &str) -> Result<String, ReportError> {

@@ -210,7 +210,7 @@
       refresh();
     };
 
-    const worst = () => view.listWorst(part("worst"), part("worst-heading"), scene, layerNow(), (uv, errors) => {
+    const worst = () => view.listWorst({ section: part("worst"), choice: part("worst-of"), list: part("patches") }, scene, layerNow(), (uv, errors) => {
       state.layer = errors.key;
       show();
       face(uv);
@@ -239,6 +239,8 @@
       if (members.length) part("layer").append(list);
     }
     part("light").append(...lights.map(({ id, title }) => option(id, title)));
+    part("worst-of").append(...scene.panes.filter((pane) => !pane.is_truth).map(({ id, title }) => option(id, title)));
+    part("worst-of").addEventListener("change", worst);
     part("factor").closest("label").hidden = !scene.panes.some((pane) => pane.factor);
     for (const pane of scene.panes) {
       const label = document.createElement("label"), box = Object.assign(document.createElement("input"), { type: "checkbox", value: pane.id });
