@@ -177,7 +177,7 @@ def test_a_click_tells_the_values_of_the_files(head: Head, tiny_run: Path) -> No
     cell = head.page.run("(({ x, y, width, height }) => [x, y, width, height])(unshadeView.cells()[0])")
     box = head.page.run("(({ x, y }) => [x, y])(document.getElementById('canvas').getBoundingClientRect())")
     head.page.mouse((box[0] + cell[0] + cell[2] * 0.5, box[1] + cell[1] + cell[3] * 0.42))
-    head.page.until("unshadeView.told")
+    head.page.until("unshadeView.told !== undefined")
     u, v = head.state()["spot"]
     told = head.page.run("unshadeView.told.panes.map(({ pane, values }) => ({ title: pane.title, values }))")
     folders = {"truth": tiny_run / "captures" / CASE / "truth"} | {name: tiny_run / "maps" / CASE / name for name in METHODS}
@@ -240,7 +240,7 @@ def test_a_worst_spot_is_a_click_away(head: Head) -> None:
     values = [float(text.split()[0]) for text in spots]
     assert 0 < len(spots) <= 10 and values == sorted(values, reverse=True)
     head.page.run("document.querySelector('#patches button').click()")
-    head.page.until("document.querySelector('#story .facts')")
+    head.page.until("document.querySelector('#story .facts') !== null")
     state = head.state()
     assert state["spot"] and state["layer"] == "error-diffuse_albedo"
 
@@ -258,6 +258,19 @@ def test_surroundings_from_a_file_are_exposed_as_lights_are(head: Head, tmp_path
     package.write_exr(tmp_path / "square.exr", np.full((16, 16, 3), 7.0, np.float32))
     head.page.give_file("#file", tmp_path / "square.exr")
     head.page.until("document.getElementById('notice').textContent.includes('2 : 1')")
+
+
+@pytest.mark.parametrize("ending", ["exr", "hdr"])
+def test_a_dropped_file_stands_as_the_captures_light_does(head: Head, tiny_run: Path, tmp_path: Path, ending: str) -> None:
+    """The capture's own light from a file: neither mirrored nor upside down."""
+    head.choose("light", "truth")
+    expected = head.linear("truth")[..., :3]
+    light = mi.Bitmap(str(tiny_run / "captures" / CASE / "truth" / "light.exr")).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False)
+    light.write(str(tmp_path / f"light.{ending}"))
+    head.page.give_file("#file", tmp_path / f"light.{ending}")
+    head.page.until("unshadeView.state.light === 'file0'")
+    found = head.linear("truth")[..., :3]
+    assert np.abs(found - expected).mean() < 0.02 * expected.mean()
 
 
 def test_a_phones_width_is_enough(head: Head) -> None:
@@ -283,7 +296,7 @@ def test_a_notebook_shows_the_page_itself(chromium: browser.Page, tiny_run: Path
     page = package.view(tiny_run / "captures" / CASE, tiny_run / "maps" / CASE / "quick")
     (tmp_path / "notebook.html").write_text("<!doctype html><meta charset=utf-8>" + page._repr_html_())
     chromium.open(tmp_path / "notebook.html", 1200)
-    chromium.until("frames[0].unshadeView?.ready", 60)
+    chromium.until("frames[0].unshadeView?.ready !== undefined", 60)
     assert chromium.run("frames[0].unshadeView.ready.then(() => frames[0].unshadeView.scene.panes.length)") == 2
     assert page.path.exists() and "HeadPage" in repr(page)
 
