@@ -117,7 +117,14 @@ def browser(profile: Path) -> Iterator[Page]:
     assert program is not None
     profile.mkdir(parents=True, exist_ok=True)
     # Without the sandbox, which root in a container does not have; it shows files of ours alone. WebGL in software.
-    options = ["--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--hide-scrollbars", "--remote-debugging-port=0"]
+    options = [
+        "--headless",
+        "--no-sandbox",
+        "--use-angle=swiftshader",
+        "--enable-unsafe-swiftshader",
+        "--hide-scrollbars",
+        "--remote-debugging-port=0",
+    ]
     with (profile / "log.txt").open("w") as log:
         child = subprocess.Popen(
             [program, *options, f"--user-data-dir={profile}", "about:blank"], stderr=log, stdout=log

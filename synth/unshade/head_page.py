@@ -50,7 +50,9 @@ class HeadPage:
         return re.sub(
             r'<script src="(.*?)"></script>',
             # The manifest opens the page, so the arrays come before it.
-            lambda found: (arrays if found[1] == "data/scene.js" else "") + _inline((folder / found[1]).read_text("utf-8")),
+            lambda found: (
+                (arrays if found[1] == "data/scene.js" else "") + _inline((folder / found[1]).read_text("utf-8"))
+            ),
             page,
         )
 

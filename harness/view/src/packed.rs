@@ -60,7 +60,7 @@ pub(crate) struct Array {
 }
 
 /// What the page knows of an array before it loads it.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub(crate) struct Stored {
     /// The script's name in `data/`, without its ending.
     pub name: String,
