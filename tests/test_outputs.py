@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import shutil
 import subprocess
@@ -189,3 +190,20 @@ def test_either_side_of_a_comparison_is_a_run_a_baseline_or_scores(parts: dict[s
         assert done.returncode == 2 and words in done.stderr and done.stderr.count("\n") == 1, done.stderr
         with pytest.raises(package.errors.CompareError):
             package.compare(current, baseline)
+
+
+def test_a_terminal_shows_the_means_of_the_file(tiny_run: Path, tmp_path: Path) -> None:
+    done = unshade("table", tiny_run, "-o", tmp_path / "means.csv")
+    with (tmp_path / "means.csv").open(newline="") as file:
+        means = [row for row in csv.DictReader(file) if row["method"] == "quick"]
+    shown = 0
+    for block in done.stdout.strip().split("\n\n"):
+        title, heading, *lines = block.split("\n")
+        for line in lines:
+            row = next(
+                row for row in means if row["table"] in title and line.startswith(f"{row['figure']} {row['better']}")
+            )
+            text = line[heading.index("quick") :].split()[0].rstrip("*")
+            assert abs(float(text) - float(row["mean"])) <= 0.51 * 10.0 ** -len(text.partition(".")[2]), line
+            shown += 1
+    assert shown == len(means)

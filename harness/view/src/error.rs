@@ -9,7 +9,7 @@ use formats::atomic::FolderError;
 use formats::picture::PictureError;
 use scoring::metrics::MetricError;
 
-use crate::MOST_METHODS;
+use crate::limits::MOST_METHODS;
 
 /// Reasons why a page cannot be written; each message is one line.
 #[derive(Debug, thiserror::Error)]

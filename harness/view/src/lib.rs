@@ -7,6 +7,7 @@
 mod error;
 mod errors;
 mod geometry;
+mod limits;
 mod packed;
 mod page;
 mod panes;
@@ -22,6 +23,7 @@ use formats::atomic::{self, Folder};
 use serde::Serialize;
 
 pub use error::ViewError;
+pub use limits::MOST_METHODS;
 pub use page::write_shared;
 pub use sources::MethodMaps;
 
@@ -31,9 +33,6 @@ use packed::{Array, Stored};
 use panes::Pane;
 use sources::Source;
 use views::Views;
-
-/// Methods of a page, at most: one pane each beside the truth.
-pub const MOST_METHODS: usize = 3;
 
 /// Everything that a page knows before it loads an array.
 #[derive(Serialize)]

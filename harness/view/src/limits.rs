@@ -1,0 +1,4 @@
+//! What one page holds.
+
+/// Methods of a page, at most: one pane each beside the truth.
+pub const MOST_METHODS: usize = 3;
