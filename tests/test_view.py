@@ -287,7 +287,10 @@ def test_a_dropped_file_stands_as_the_captures_light_does(
     head.page.give_file("#file", tmp_path / f"light.{ending}")
     head.page.until("unshadeView.state.light === 'file0'")
     found = head.linear("truth")[..., :3]
-    assert np.abs(found - expected).mean() < 0.02 * expected.mean()
+    # The capture's lamps were exposed where they stand, those of a file at infinity.
+    factor = expected.mean() / found.mean()
+    assert factor == pytest.approx(1, abs=0.1)
+    assert np.abs(factor * found - expected).mean() < 0.02 * expected.mean()
 
 
 def test_a_phones_width_is_enough(head: Head) -> None:

@@ -244,7 +244,7 @@ mod tests {
             let [x, y] = [patch.uv[0] * 128.0, (1.0 - patch.uv[1]) * 128.0];
             (80.0..92.0).contains(&x) && (40.0..52.0).contains(&y)
         };
-        assert!(inside(&&found[0]) && found[0].value > 30.0, "{:?}", found[0]);
+        assert!(inside(&&found[0]) && found[0].value > 20.0, "{:?}", found[0]);
         assert!(found.iter().filter(inside).count() <= 4, "patches of 4 texels do not touch");
         // 144 of 15,376 texels are less than two per cent: the scale is that of the rest.
         assert!(errors[0].top() < 10.0);
