@@ -339,7 +339,7 @@ def test_bad_input_is_one_line_and_leaves_nothing(tiny_run: Path, tmp_path: Path
     for arguments, said in [
         ([capture, maps, maps, maps, maps], "at most 3"),
         ([capture, tiny_run / "scores"], "diffuse_albedo.exr"),
-        ([tmp_path, maps], "transforms.json"),
+        ([tiny_run / "scores", maps], "transforms.json"),
     ]:
         done = unshade("view", *arguments, "-o", tmp_path / "page", check=False)
         assert done.returncode == 2 and said in done.stderr and done.stderr.count("\n") == 1, done.stderr
