@@ -8,7 +8,7 @@ use formats::maps::Maps;
 use formats::picture::Picture;
 use glam::Vec3;
 
-use crate::model::texture::resample;
+use crate::model::texture::shrunk;
 use crate::scene::Scene;
 
 /// The maps that a stage changed, at most 256 texels a side, normalised like the final ones.
@@ -70,14 +70,8 @@ struct Small {
 
 impl Small {
     fn of(texture: &[f32], channels: usize, size: usize) -> Self {
-        let (mut texture, mut size) = (texture.to_vec(), size);
-        // Halving averages 2 x 2 texels; a larger step would skip texels.
-        while size > SIDE {
-            let next = (size / 2).max(SIDE);
-            texture = resample(&texture, size, channels, next);
-            size = next;
-        }
-        Self { size, texture }
+        let side = size.min(SIDE);
+        Self { size: side, texture: shrunk(texture, size, channels, side) }
     }
 }
 

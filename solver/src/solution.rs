@@ -88,6 +88,8 @@ pub struct Record {
     pub backend: String,
     /// BLAKE3 hash of all input files.
     pub input: String,
+    /// The parts of the truth that the solve held fixed: it is privileged unless there are none.
+    pub given: Vec<String>,
     /// Where the caller interrupted the solve, such as "warm-up at step 3 of 500"; `None` for a finished solve.
     pub interrupted: Option<String>,
     /// Distance of the light from the head's centre, metres; `None` at infinity, and for the published method.

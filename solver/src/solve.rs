@@ -88,6 +88,9 @@ pub fn solve_on(
     progress: &mut Callback,
 ) -> Result<Solution, SolveError> {
     config.validate()?;
+    if matches!(config, Config::Paper(_)) && !capture.truth.parts.is_empty() {
+        return Err(SolveError::GivenToOther);
+    }
     let estimate = Estimate::new(capture, config);
     estimate.fits(memory::available())?;
     let _kept = memory::KeepFreedMemory::begin();
@@ -114,6 +117,7 @@ pub fn solve_on(
         config: config.clone(),
         backend: backend.name(),
         input: capture.hash().to_owned(),
+        given: capture.truth.parts.iter().map(ToString::to_string).collect(),
         interrupted,
         light_distance: results.light.as_ref().and_then(|light| light.distance),
         texture_size: results.texture_size,

@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import os
 import tempfile
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Iterable, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Literal, TypedDict
@@ -51,6 +51,7 @@ def solve(
     out: _Path | None = None,
     progress: Callable[[str, int, int, float], object] | None = None,
     backend: Literal["auto", "cpu", "gpu"] = "auto",
+    given: Iterable[str] = (),
 ) -> Maps:
     """Recover maps from a capture or its folder.
 
@@ -59,6 +60,7 @@ def solve(
     raised here, as is Ctrl-C; returning `unshade.STOP` stops it and returns the maps so far, whose ``interrupted``
     says where. With ``out`` the whole maps folder is written there, after `unshade.STOP` as well; the same call
     then resumes there, to the same bytes. ``backend`` is ``auto`` (a real GPU if there is one), ``cpu`` or ``gpu``.
+    ``given`` names parts that are held at their truth, such as ``["light=truth"]``: a privileged solve, for studies.
     Raises ``errors.CaptureError``, `ConfigError`, `BackendError`, `SolveError`, `MapsError` and `StorageError`.
     """
     if isinstance(config, (str, os.PathLike)):
@@ -72,7 +74,7 @@ def solve(
         except TypeError:
             raise TypeError(f"capture: expected a Capture or a path, got {type(capture).__name__}") from None
     try:
-        found = _native.solve(capture, text, is_text, out, progress, backend)
+        found = _native.solve(capture, text, is_text, out, progress, backend, list(given))
     except ConfigError as error:
         if isinstance(config, (str, os.PathLike)):
             raise

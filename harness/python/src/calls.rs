@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
+use capture::TruthPart;
 use harness::cli;
 use harness::suite::{self, SOLVER_SOURCES};
 use pyo3::prelude::*;
@@ -30,7 +31,7 @@ pub(super) fn run_command_line(py: Python<'_>, arguments: Vec<std::ffi::OsString
 /// `config` is the text of a configuration if `is_text`, else a preset's name or a file's path.
 /// `progress(stage, iteration, total, loss)` may be given.
 #[pyfunction]
-#[pyo3(signature = (capture, config, is_text, out=None, progress=None, backend="auto"))]
+#[pyo3(signature = (capture, config, is_text, out=None, progress=None, backend="auto", given=vec![]))]
 pub(super) fn solve<'py>(
     py: Python<'py>,
     capture: &Bound<'py, Capture>,
@@ -39,6 +40,7 @@ pub(super) fn solve<'py>(
     out: Option<PathBuf>,
     progress: Option<&Bound<'py, PyAny>>,
     backend: &str,
+    given: Vec<String>,
 ) -> PyResult<(Bound<'py, PyDict>, Option<String>)> {
     let mut config = if is_text {
         solver::Config::from_toml(config).map_err(raise)?
@@ -50,7 +52,14 @@ pub(super) fn solve<'py>(
         config = config.without_records();
     }
     let backend: Choice = backend.parse().map_err(raise)?;
-    let capture = &capture.get().inner;
+    let given: Vec<TruthPart> = given
+        .iter()
+        .map(|part| part.parse())
+        .collect::<Result<_, String>>()
+        .map_err(|reason| named_error("SolveError", &reason))?;
+    let capture = capture.get().inner.clone();
+    let capture = py.detach(|| capture.with_truth(&given)).map_err(raise)?;
+    let capture = &capture;
     let backend = py.detach(|| gpu_of_process::open(backend))?;
     let end = interruptible(py, progress, true, |interrupt, reporter| {
         let mut hear = |step: &solver::Progress| {

@@ -79,7 +79,7 @@ impl Named for SolveError {
             Self::Capture(error) => error.class(),
             Self::Maps(error) => error.class(),
             Self::Interrupted => "Stopped",
-            Self::NotFinite { .. } | Self::Memory { .. } => "SolveError",
+            Self::NotFinite { .. } | Self::Memory { .. } | Self::GivenToOther => "SolveError",
         }
     }
 }

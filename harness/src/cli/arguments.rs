@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use capture::TruthPart;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde::Deserialize;
 
@@ -228,7 +229,7 @@ pub(super) struct SynthArgs {
 
 #[derive(Args)]
 pub(super) struct SolveArgs {
-    /// The capture; its `truth/` is never opened.
+    /// The capture; its `truth/` is opened only for what `--given` names.
     pub capture: PathBuf,
     /// The maps' folder.
     #[arg(short, long)]
@@ -239,6 +240,10 @@ pub(super) struct SolveArgs {
     /// A preset (unshade, paper, paper-tuned, fast) or a TOML file.
     #[arg(long, default_value = "unshade")]
     pub config: String,
+    /// Hold parts at their truth and solve the rest: light, specular, roughness, normals, and highlights or
+    /// shading of the training views. Privileged, for studies of errors; needs `unshade` as the method.
+    #[arg(long, value_name = "PART=truth", value_delimiter = ',')]
+    pub given: Vec<TruthPart>,
     /// Do not write the maps after every stage and the layers of every training view.
     #[arg(long)]
     pub no_records: bool,

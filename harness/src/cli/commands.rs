@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use formats::atomic;
 use scoring::score;
 use scoring::study::{self, Study};
-use solver::Choice;
+use solver::{Choice, SolveError};
 use view::MethodMaps;
 
 use super::alone::alone;
@@ -166,11 +166,14 @@ fn solve(
         let reason = "a baseline has no steps to show; remove --rerun".to_owned();
         return Err(ViewerError(reason).into());
     }
+    if !arguments.given.is_empty() && arguments.solver != SolverName::Fields {
+        return Err(SolveError::GivenToOther.into());
+    }
     let (capture, out) = (&arguments.capture, &arguments.out);
     let baseline = |method: BaselineMethod| method.make(capture, out, BaselineMethod::TEXTURE_SIZE);
     match arguments.solver {
         SolverName::Fields => {
-            let capture = capture::Capture::open(capture)?;
+            let capture = capture::Capture::open(capture)?.with_truth(&arguments.given)?;
             let estimate = solver::memory::Estimate::new(&capture, &config);
             observer.message(&format!("solve: {estimate}"));
             let backend = name_of(&arguments.backend).parse::<Choice>()?.open()?;

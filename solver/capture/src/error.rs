@@ -66,6 +66,14 @@ pub enum CaptureError {
         /// The single change that fits, or the places to look at.
         fix: String,
     },
+    /// A part of the truth cannot be read.
+    #[error("{path}: {reason}")]
+    Truth {
+        /// The file or folder.
+        path: PathBuf,
+        /// The fault and its fix.
+        reason: String,
+    },
     /// A picture file is faulty.
     #[error(transparent)]
     Picture(#[from] PictureError),

@@ -12,6 +12,7 @@ use crate::first_look;
 use crate::mesh::Mesh;
 use crate::orientation::{self, Flipped};
 use crate::transforms::Transforms;
+use crate::truth::Truth;
 use crate::uv_layout::{self, Layout, LayoutFault, Parts};
 use crate::view::View;
 
@@ -19,7 +20,7 @@ const TRANSFORMS: &str = "transforms.json";
 
 /// Everything a solver may see: the mesh, the training views, and where the withheld cameras stand.
 ///
-/// Pictures of withheld frames and the folder `truth` are never opened.
+/// Pictures of withheld frames are never opened, the folder `truth` only by [`Capture::with_truth`].
 #[derive(Clone, Debug)]
 pub struct Capture {
     /// Path of the folder.
@@ -33,6 +34,8 @@ pub struct Capture {
     pub withheld: Vec<Camera>,
     /// Names of the label pictures' ids, as far as the file has them.
     pub label_names: BTreeMap<u8, String>,
+    /// The parts of the truth that a privileged solve holds fixed; none unless [`Capture::with_truth`] read them.
+    pub truth: Truth,
     hash: String,
 }
 
@@ -102,6 +105,7 @@ impl Capture {
             train,
             withheld: transforms.withheld.into_iter().map(|frame| frame.camera).collect(),
             label_names: transforms.label_names,
+            truth: Truth::default(),
             hash: hasher.finalize().to_hex().to_string(),
         })
     }
@@ -110,6 +114,19 @@ impl Capture {
     /// training views' pictures, masks and labels, as they were when the folder was opened.
     pub fn hash(&self) -> &str {
         &self.hash
+    }
+
+    /// Sets the parts of the truth that are held fixed, and adds their names to the hash.
+    pub(crate) fn set_truth(&mut self, truth: Truth) {
+        if !truth.parts.is_empty() {
+            let mut hasher = blake3::Hasher::new();
+            hasher.update(self.hash.as_bytes());
+            for part in &truth.parts {
+                hasher.update(part.to_string().as_bytes());
+            }
+            self.hash = hasher.finalize().to_hex().to_string();
+        }
+        self.truth = truth;
     }
 
     /// The ids of the labels with one of these names.

@@ -21,6 +21,7 @@ mod testing;
 #[cfg(test)]
 mod tests;
 mod transforms;
+mod truth;
 pub mod uv_layout;
 mod view;
 mod winding;
@@ -29,6 +30,7 @@ pub use camera::Camera;
 pub use error::CaptureError;
 pub use folder::Capture;
 pub use mesh::Mesh;
+pub use truth::{TrueLight, Truth, TruthPart};
 pub use view::View;
 
 // The tests' scenes are those of other crates too.

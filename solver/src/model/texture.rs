@@ -27,6 +27,18 @@ pub fn resample(texture: &[f32], size: usize, channels: usize, to: usize) -> Vec
     out
 }
 
+/// Resamples a texture to another size; to a smaller one by averages of 2 x 2 texels, since a larger step would skip
+/// texels.
+pub fn shrunk(texture: &[f32], size: usize, channels: usize, to: usize) -> Vec<f32> {
+    let (mut texture, mut size) = (texture.to_vec(), size);
+    while size != to {
+        let next = if size > to { (size / 2).max(to) } else { to };
+        texture = resample(&texture, size, channels, next);
+        size = next;
+    }
+    texture
+}
+
 /// Texels per task.
 const CHUNK: usize = 1 << 12;
 

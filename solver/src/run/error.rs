@@ -12,6 +12,11 @@ pub enum SolveError {
     /// The configuration is out of range.
     #[error(transparent)]
     Config(#[from] ConfigError),
+    /// The published method and the baselines have no parts that could be held fixed.
+    #[error(
+        "only `unshade` can be given parts of the truth; choose a configuration with this base, and no baseline"
+    )]
+    GivenToOther,
     /// The capture shows nothing of the mesh.
     #[error(transparent)]
     Capture(#[from] CaptureError),

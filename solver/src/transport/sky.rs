@@ -3,12 +3,16 @@
 
 use std::f64::consts::{PI, TAU};
 
+use formats::picture::Picture;
 use glam::Vec3;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
 use super::{CHANNELS, luminance};
+
+/// Points along a side of a cell at which a picture is read.
+const POINTS: usize = 64;
 
 /// A direction within a cell and the solid angle it stands for, both from the head's centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,6 +62,27 @@ impl Sky {
             Cell { polar: edges(row, rows, PI), azimuth: edges(column, columns, TAU) }
         };
         Self { cells: (0..rows * columns).map(cell).collect(), nearness: 0.0 }
+    }
+
+    /// The mean radiance of every cell, R, G, B, in a lat-long picture whose first and last row lie on the poles.
+    pub fn means(&self, picture: &Picture) -> Vec<f32> {
+        let mean = |cell: &Cell| {
+            let ([top, bottom], [left, right]) = (cell.polar.map(f64::cos), cell.azimuth);
+            let along = |at: usize, from: f64, to: f64| {
+                from + (to - from) * (at as f64 + 0.5) / POINTS as f64
+            };
+            let mut sums = [0.0_f64; CHANNELS];
+            for at in 0..POINTS * POINTS {
+                let polar = along(at / POINTS, top, bottom).acos();
+                let azimuth = along(at % POINTS, left, right);
+                let row = (polar / PI * (picture.height - 1) as f64).round() as usize;
+                let column = (azimuth / TAU * picture.width as f64) as usize % picture.width;
+                let radiance = &picture.pixel(column, row)[..CHANNELS];
+                sums.iter_mut().zip(radiance).for_each(|(sum, value)| *sum += f64::from(*value));
+            }
+            sums.map(|sum| (sum / (POINTS * POINTS) as f64) as f32)
+        };
+        self.cells.iter().flat_map(mean).collect()
     }
 
     /// Moves these cells to a sphere of another nearness.

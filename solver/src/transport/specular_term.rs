@@ -29,10 +29,14 @@ impl SpecularTerm {
         [self.reflectance, self.roughness]
     }
 
+    /// The term with these [channels](Self::channels).
+    pub fn of([reflectance, roughness]: [f32; Self::ROWS]) -> Self {
+        Self { reflectance, roughness }
+    }
+
     /// The term of sample `i`.
     pub fn at(samples: &Planes, i: usize) -> Self {
-        let [reflectance, roughness] = samples.sample(i, 0);
-        Self { reflectance, roughness }
+        Self::of(samples.sample(i, 0))
     }
 
     /// `skin` with the lobes of this place; alphas are at most 1.

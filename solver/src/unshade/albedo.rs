@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::confidence::{confidence, picture_weight};
 use super::inpainting::inpaint_from_region;
+use super::known::Known;
 use super::light::JointEstimate;
 use super::lighting::{Lighting, SHADING_ROWS, bent_shading};
 use super::region_terms::RegionTerms;
@@ -72,6 +73,7 @@ impl SampledLayers {
 
 /// The full pictures on the final texture.
 pub(super) struct FullPictures<'a> {
+    pub known: Known<'a>,
     pub samples: &'a Samples,
     pub face: &'a FaceRegions,
     /// The region of every texel.
@@ -88,10 +90,12 @@ pub(super) fn fit_albedo(
     joint: &JointEstimate,
     relief: &Relief,
 ) -> Result<AlbedoEstimate, SolveError> {
-    let FullPictures { samples, face, regions } = *pictures;
+    let FullPictures { known, samples, face, regions } = *pictures;
     let size = samples.taps.size();
     let SampledLayers { shading, shading_with_derivative, highlights } =
         SampledLayers::new(run, lighting, &joint.terms, relief, &relief.blurred(), samples);
+    let (shading, highlights) =
+        (known.shading(samples, shading), known.highlights(samples, highlights));
     let target = Planes::from_fn::<CHANNELS>(samples.len(), |i| {
         std::array::from_fn(|c| samples.target.get(c, i) - highlights.get(c, i))
     });

@@ -8,6 +8,7 @@ use formats::maps::Maps;
 use formats::picture::Picture;
 
 use super::albedo::{AlbedoEstimate, SampledLayers};
+use super::known::Known;
 use super::light::JointEstimate;
 use super::lighting::Lighting;
 use super::region_terms::RegionTerms;
@@ -21,10 +22,11 @@ use crate::run::progress::LayerSink;
 use crate::scene::Scene;
 use crate::semantic::regions::FaceRegions;
 use crate::solution::{RecoveredLight, Results, ViewLayers};
-use crate::transport::CHANNELS;
+use crate::transport::{CHANNELS, SpecularTerm};
 
 /// The estimates of all stages.
 pub(super) struct Estimates<'a> {
+    pub known: Known<'a>,
     pub lighting: &'a Lighting<'a>,
     pub face: &'a FaceRegions,
     /// Its terms have the usual lobes, which belong to the light: it has absorbed a part of the difference to the
@@ -46,12 +48,20 @@ pub(super) fn assemble(
     estimates: Estimates,
     layer_sink: Option<&mut LayerSink>,
 ) -> Result<Results, SolveError> {
-    let Estimates { lighting, face, joint, measured_terms, relief, final_albedo, sample_count } =
-        estimates;
+    let Estimates {
+        known,
+        lighting,
+        face,
+        joint,
+        measured_terms,
+        relief,
+        final_albedo,
+        sample_count,
+    } = estimates;
     let (mesh, size, map_size) = (&scene.capture.mesh, scene.size, scene.map_size);
     let seen = scene.seen(&Atlas::new(mesh, size));
     let diffuse = maps::fill_unseen(final_albedo.albedo, CHANNELS, &seen);
-    let relief = Relief { deviation: maps::fill_unseen(relief.deviation, 3, &seen), size };
+    let relief = Relief { deviation: maps::fill_unseen(relief.deviation, 3, &seen), ..relief };
     let total_scale = scene.picture_scale * measured_terms.exposure_error(&config.reflectance);
     let scales = Scales { diffuse: lighting.peak / total_scale, specular: 1.0 };
     let stages = match config.records.stages {
@@ -98,7 +108,9 @@ pub(super) fn assemble(
     let confidence = resample(&final_albedo.confidence, size, 1, map_size);
     let confidence = confidence.iter().zip(&seen).map(|(c, seen)| if *seen { *c } else { 0.0 });
     let regions = face.region_map(scene, map_size);
-    let terms: Vec<_> = regions.iter().map(|region| measured_terms.of(*region)).collect();
+    let terms = known.terms(measured_terms.clone(), config, map_size).texture(&regions);
+    let terms: Vec<_> =
+        terms.as_chunks().0.iter().map(|channels| SpecularTerm::of(*channels)).collect();
     let lobes = terms.iter().flat_map(|term| {
         let SkinConfig { roughness: [a, b], weights: [of_a, of_b], .. } =
             term.lobes_of(&config.skin);

@@ -75,8 +75,15 @@ pub(super) fn fit_light(
         config.light.steps_of(round),
         model,
     );
-    run.fit(name, &mut fit)?;
-    let (folds, relative_nearness) = fit.into_best();
+    let (folds, relative_nearness) = match data.known.light(far, config.transport.rows) {
+        Some((log_light, nearness)) => {
+            ([log_light.clone(), log_light], nearness / far.nearness_unit())
+        }
+        None => {
+            run.fit(name, &mut fit)?;
+            fit.into_best()
+        }
+    };
     let log_light = mean(&folds);
     let light = exp(&log_light);
     let model = model(&samples, &estimate.log_light);
@@ -93,7 +100,8 @@ pub(super) fn fit_light(
         &regression,
         data.regions,
     );
-    let tint = match round == config.light.rounds {
+    let has_light = data.known.has_light();
+    let tint = match round == config.light.rounds && !has_light {
         true => model.tint(&light, relative_nearness, data.region_colours),
         false => [1.0; CHANNELS],
     };
@@ -101,7 +109,10 @@ pub(super) fn fit_light(
     let log_light: Vec<f32> = cells.map(|(log, tint)| log + tint.ln()).collect();
     let albedo = without_tint(data.region_colours, &tint);
     Ok(LightEstimate {
-        fold_disagreement: fold_disagreement(far, &folds, relative_nearness),
+        fold_disagreement: match has_light {
+            true => f32::MIN_POSITIVE,
+            false => fold_disagreement(far, &folds, relative_nearness),
+        },
         folds,
         nearness_per_metre: relative_nearness * far.nearness_unit(),
         bounce_albedo: bounce_albedo(far, &exp(&log_light), &albedo),

@@ -8,6 +8,7 @@ mod explicit;
 mod grey;
 mod height_solve;
 mod inpainting;
+mod known;
 mod light;
 mod light_fit_data;
 mod lighting;
@@ -29,6 +30,7 @@ use capture::Capture;
 
 use self::albedo::{FullPictures, fit_albedo};
 use self::assemble::{Estimates, assemble};
+use self::known::Known;
 use self::light::{JointEstimate, LightEstimate, fit_joint, fit_light};
 use self::light_fit_data::LightFitData;
 use self::lighting::Lighting;
@@ -56,6 +58,8 @@ pub(crate) fn solve(
     let space = SampleSpace::default().with_perturbed_pictures(config.rendering.rounding_seed);
     let target_luminance = Some(config.rendering.exposure);
     let scene = Scene::new(capture, space, target_luminance, config.maps.texture_size)?;
+    let known = Known::new(&scene);
+    let config = &known.configured(config);
     let coarse_size = config.transport.texture_size;
 
     let face = FaceRegions::new(&scene, config);
@@ -68,6 +72,7 @@ pub(crate) fn solve(
     run.record_time("rays");
     let coarse_samples = scene.samples_at_half_resolution(None, coarse_size);
     let data = LightFitData {
+        known,
         samples: &coarse_samples,
         face: &face,
         regions: &coarse_regions,
@@ -75,6 +80,7 @@ pub(crate) fn solve(
     };
     let reflectance = scene.picture_scale * config.skin.reflectance;
     let terms = RegionTerms::prior(reflectance, &face.skin, &coarse_regions);
+    let terms = known.terms(terms, config, coarse_size);
     let mut light = LightEstimate::uniform(far.cells(), config.transport.bounce_albedo, terms);
     for round in 1..=config.light.rounds {
         light = run.stage_from(&format!("light {round}"), light, |run, name, light| {
@@ -101,13 +107,15 @@ pub(crate) fn solve(
     drop(coarse_samples);
     let lighting = Lighting::new(config, &near, &coarse_regions, &light, &joint);
 
-    let relief = run.stage("relief", |run, name| match run.is_interrupted() {
-        true => Ok(Relief::none(scene.size)),
-        false => fit_relief(run, name, &config.relief, &scene, &lighting, &joint),
+    let relief = run.stage("relief", |run, name| match known.relief(&scene) {
+        Some(relief) => Ok(relief),
+        None if run.is_interrupted() => Ok(Relief::none(scene.size)),
+        None => fit_relief(run, name, &config.relief, &scene, &lighting, &joint),
     })?;
     let full_samples = scene.samples(None, scene.size);
     let full_regions = face.region_map(&scene, scene.size);
-    let pictures = FullPictures { samples: &full_samples, face: &face, regions: &full_regions };
+    let pictures =
+        FullPictures { known, samples: &full_samples, face: &face, regions: &full_regions };
     let final_albedo = run.stage("albedo", |run, name| {
         fit_albedo(run, name, config, &pictures, &lighting, &joint, &relief)
     })?;
@@ -118,6 +126,7 @@ pub(crate) fn solve(
     })?;
     run.record_time("roughness");
     let estimates = Estimates {
+        known,
         lighting: &lighting,
         face: &face,
         joint: &joint,

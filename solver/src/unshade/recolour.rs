@@ -10,7 +10,7 @@ use crate::model::planes::Planes;
 use crate::transport::{CHANNELS, LIGHT_EXPONENT, Transport};
 
 /// Gives every region other than skin the one albedo that explains its mean picture without highlights under the light
-/// of the estimate. Without named skin the albedo does not change.
+/// of the estimate; skin as well if the light is known. Without named skin the albedo does not change.
 pub(super) fn recoloured(
     backend: &dyn Backend,
     config: &SkinConfig,
@@ -18,8 +18,8 @@ pub(super) fn recoloured(
     data: &LightFitData,
     mut estimate: JointEstimate,
 ) -> JointEstimate {
-    let LightFitData { samples, regions, face, .. } = *data;
-    if face.skin.is_empty() {
+    let LightFitData { known, samples, regions, face, .. } = *data;
+    if face.skin.is_empty() && !known.has_light() {
         return estimate;
     }
     let light = exp(&estimate.log_light);
@@ -43,8 +43,8 @@ pub(super) fn recoloured(
     }
     for (texel, region) in estimate.albedo.chunks_exact_mut(CHANNELS).zip(regions) {
         let sums = &sums[usize::from(*region)];
-        let known = sums.iter().all(|[observed, white]| *observed > 0.0 && *white > 0.0);
-        if known && !face.skin.contains(region) {
+        let seen = sums.iter().all(|[observed, white]| *observed > 0.0 && *white > 0.0);
+        if seen && (known.has_light() || !face.skin.contains(region)) {
             texel.iter_mut().zip(sums).for_each(|(a, [observed, white])| {
                 *a = (observed / white) as f32;
             });

@@ -20,6 +20,8 @@ pub(super) struct RegionTerms {
     prior: SpecularTerm,
     /// The regions of skin, which share one term; the largest region if no skin is named.
     skin: Vec<u8>,
+    /// The known reflectance and roughness of every texel, in place of those of its region; see [`super::known`].
+    known: [Option<Vec<f32>>; SpecularTerm::ROWS],
 }
 
 impl RegionTerms {
@@ -33,7 +35,13 @@ impl RegionTerms {
             skin.extend(largest);
         }
         let prior = SpecularTerm::usual(reflectance);
-        Self { regions: vec![prior; 256], prior, skin }
+        Self { regions: vec![prior; 256], prior, skin, known: [None, None] }
+    }
+
+    /// Replaces the reflectance and the roughness by textures.
+    #[must_use]
+    pub fn with_known(self, known: [Option<Vec<f32>>; SpecularTerm::ROWS]) -> Self {
+        Self { known, ..self }
     }
 
     /// The specular term of a region.
@@ -43,7 +51,13 @@ impl RegionTerms {
 
     /// The [`SpecularTerm::channels`] of every texel, by its region.
     pub fn texture(&self, regions: &[u8]) -> Vec<f32> {
-        regions.iter().flat_map(|region| self.of(*region).channels()).collect()
+        let mut texture: Vec<f32> =
+            regions.iter().flat_map(|region| self.of(*region).channels()).collect();
+        for (row, known) in self.known.iter().enumerate() {
+            let values = texture.iter_mut().skip(row).step_by(SpecularTerm::ROWS);
+            values.zip(known.iter().flatten()).for_each(|(value, known)| *value = *known);
+        }
+        texture
     }
 
     /// Multiplies the reflectances by a factor: the [peak](crate::transport::Transport::peak) of another light over
@@ -63,7 +77,7 @@ impl RegionTerms {
     /// The measured reflectance of skin is its prior mean times x times a factor of the person; both factors have a
     /// prior.
     pub fn exposure_error(&self, config: &ReflectanceConfig) -> f32 {
-        if config.exposure_deviation == 0.0 {
+        if config.exposure_deviation == 0.0 || self.known[0].is_some() {
             return 1.0;
         }
         let observed = self.of_skin().reflectance / self.prior.reflectance;

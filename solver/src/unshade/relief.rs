@@ -30,17 +30,27 @@ pub(super) struct Relief {
     pub size: usize,
     /// The difference to the unit mesh normal, x, y, z per texel.
     pub deviation: Vec<f32>,
+    /// The same of the diffuse normals, if it is known; else they follow from `deviation`.
+    pub diffuse: Option<Vec<f32>>,
 }
 
 impl Relief {
+    /// A deviation of the specular normals, from which the diffuse normals follow.
+    pub fn new(size: usize, deviation: Vec<f32>) -> Self {
+        Self { size, deviation, diffuse: None }
+    }
+
     /// No deviation.
     pub fn none(size: usize) -> Self {
-        Self { size, deviation: vec![0.0; 3 * size * size] }
+        Self::new(size, vec![0.0; 3 * size * size])
     }
 
     /// The deviation of the diffuse normals, which are smoother. [`Pyramid`] approximates the Gaussian of the solve's
     /// [`Blur`](crate::model::blur::Blur) to about 2 %, and is faster on the larger textures of the maps.
     pub fn blurred(&self) -> Vec<f32> {
+        if let Some(diffuse) = &self.diffuse {
+            return diffuse.clone();
+        }
         let texels = self.size * self.size;
         let packed = interleave::<4>(&[(&self.deviation, 3), (&vec![0.0; texels], 1)]);
         part::<4, 3>(&Pyramid::new(self.size, BLUR * self.size as f32).apply(&packed), 0)
@@ -49,7 +59,12 @@ impl Relief {
     /// Resamples the relief to a texture of another side.
     #[must_use]
     pub fn resized(self, size: usize) -> Self {
-        Self { deviation: resample(&self.deviation, self.size, 3, size), size }
+        let resized = |texture: &Vec<f32>| resample(texture, self.size, 3, size);
+        Self {
+            deviation: resized(&self.deviation),
+            diffuse: self.diffuse.as_ref().map(resized),
+            size,
+        }
     }
 }
 
@@ -81,7 +96,7 @@ pub(super) fn fit_relief(
                 last_residual = residual;
                 step(residual)
             });
-            relief = Relief { size, deviation: problem.deviation(&x) };
+            relief = Relief::new(size, problem.deviation(&x));
             unknowns = Some((size, x));
             drop(problem);
             let outcome = outcome.and_then(|()| {

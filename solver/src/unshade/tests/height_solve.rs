@@ -75,7 +75,7 @@ fn missed(relief: ReliefConfig, fault: Fault) -> Missed {
         0.3 * (0.9 * x).sin() * (0.7 * y).cos()
     };
     let heights: Vec<f32> = (0..TEXELS).map(wave).collect();
-    let truth = Relief { size: SIDE, deviation: HeightField::new(&atlas, 6.0).deviation(&heights) };
+    let truth = Relief::new(SIDE, HeightField::new(&atlas, 6.0).deviation(&heights));
     let sharp = samples.taps.sample::<3>(&truth.deviation);
     let soft = samples.taps.sample::<3>(&truth.blurred());
     let highlights = lighting.highlights(&backend, &terms, &samples, LIGHT_EXPONENT);

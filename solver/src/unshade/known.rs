@@ -1,0 +1,123 @@
+//! The parts of the truth that a privileged solve holds fixed ([`capture::Truth`]), in the units of the solve. Without
+//! such parts everything here is the identity.
+
+use capture::Truth;
+use capture::gbuffer::Atlas;
+use formats::picture::Picture;
+use glam::Vec3;
+
+use super::region_terms::RegionTerms;
+use super::relief::Relief;
+use crate::config::UnshadeConfig;
+use crate::model::planes::Planes;
+use crate::model::samples::Samples;
+use crate::model::texture::shrunk;
+use crate::scene::Scene;
+use crate::transport::{CHANNELS, Sky, Transport, luminances};
+
+/// Least true albedo by which a diffuse layer is divided.
+const LEAST_ALBEDO: f32 = 1e-3;
+
+/// The known parts of a scene's truth.
+#[derive(Clone, Copy)]
+pub(super) struct Known<'a> {
+    truth: &'a Truth,
+    picture_scale: f32,
+}
+
+impl<'a> Known<'a> {
+    pub fn new(scene: &'a Scene) -> Self {
+        Self { truth: &scene.capture.truth, picture_scale: scene.picture_scale }
+    }
+
+    /// The configuration, in which a known light has no learning rate.
+    pub fn configured(&self, config: &UnshadeConfig) -> UnshadeConfig {
+        let mut config = config.clone();
+        if self.has_light() {
+            config.joint.light_rate = 0.0;
+        }
+        config
+    }
+
+    /// Whether the light is known.
+    pub fn has_light(&self) -> bool {
+        self.truth.light.is_some()
+    }
+
+    /// The logarithm of the light's radiance per cell, scaled to a mean shading of 1, and its nearness per metre.
+    pub fn light(&self, far: &Transport, rows: usize) -> Option<(Vec<f32>, f32)> {
+        let light = self.truth.light.as_ref()?;
+        let nearness = light.distance.map_or(0.0, f32::recip);
+        let cells = Sky::lat_long(rows).means(&light.picture);
+        let relative = nearness / far.nearness_unit();
+        let shading = luminances(&far.shading_nearer(&cells, relative).0);
+        let mean = shading.iter().sum::<f32>() / shading.len().max(1) as f32;
+        let log = |radiance: &f32| (radiance / mean).max(f32::MIN_POSITIVE).ln();
+        Some((cells.iter().map(log).collect(), nearness))
+    }
+
+    /// The terms with the known specular albedo and roughness on a texture of side `size`.
+    pub fn terms(&self, terms: RegionTerms, config: &UnshadeConfig, size: usize) -> RegionTerms {
+        let texture = |map: &Option<Picture>, factor: f32| {
+            map.as_ref().map(|map| of_side(map, size).iter().map(|value| factor * value).collect())
+        };
+        let reflectance = texture(&self.truth.specular, self.picture_scale);
+        let roughness = texture(&self.truth.roughness, config.skin.roughness[0].recip());
+        terms.with_known([reflectance, roughness])
+    }
+
+    /// The known deviations of the normals on a texture of the scene's size.
+    pub fn relief(&self, scene: &Scene) -> Option<Relief> {
+        let size = scene.size;
+        let atlas = Atlas::new(&scene.capture.mesh, size);
+        let deviation = |normals: &Picture| -> Vec<f32> {
+            let normals = of_side(normals, size);
+            let pairs = normals.as_chunks::<3>().0.iter().zip(&atlas.normals);
+            pairs
+                .flat_map(|(n, mesh)| (Vec3::from(*n).normalize_or(*mesh) - mesh).to_array())
+                .collect()
+        };
+        let [specular, diffuse] = self.truth.normals.as_ref()?;
+        let (deviation, diffuse) = (deviation(specular), Some(deviation(diffuse)));
+        Some(Relief { size, deviation, diffuse })
+    }
+
+    /// Replaces the highlights of the samples by the known ones.
+    pub fn highlights(&self, samples: &Samples, estimate: Planes) -> Planes {
+        let Some(views) = &self.truth.highlights else { return estimate };
+        Planes::from_fn(samples.len(), |i| {
+            self.pixel(views, samples, i).map(|radiance| self.picture_scale * radiance)
+        })
+    }
+
+    /// Replaces the shading of the samples by the known diffuse layer over the known albedo, with the mean of the
+    /// estimate.
+    pub fn shading(&self, samples: &Samples, estimate: Planes) -> Planes {
+        let Some((views, albedo)) = &self.truth.shading else { return estimate };
+        let albedo = samples.taps.sample::<CHANNELS>(&of_side(albedo, samples.taps.size()));
+        let known = Planes::from_fn::<CHANNELS>(samples.len(), |i| {
+            let layer = self.pixel(views, samples, i);
+            std::array::from_fn(|c| layer[c] / albedo.get(c, i).max(LEAST_ALBEDO))
+        });
+        let sum = |planes: &Planes| -> f64 {
+            (0..samples.len())
+                .map(|i| planes.sample::<CHANNELS>(i, 0).iter().sum::<f32>() as f64)
+                .sum()
+        };
+        let factor = (sum(&estimate) / sum(&known).max(f64::MIN_POSITIVE)) as f32;
+        Planes::from_fn::<CHANNELS>(samples.len(), |i| {
+            known.sample::<CHANNELS>(i, 0).map(|s| factor * s)
+        })
+    }
+
+    fn pixel(&self, views: &[Picture], samples: &Samples, i: usize) -> [f32; CHANNELS] {
+        let view = &views[samples.view_index[i] as usize];
+        let at = CHANNELS * samples.pixel[i] as usize;
+        std::array::from_fn(|c| view.data[at + c])
+    }
+}
+
+/// A map as a texture of another side.
+fn of_side(map: &Picture, side: usize) -> Vec<f32> {
+    shrunk(&map.data, map.width, map.channels, side)
+}
