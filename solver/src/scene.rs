@@ -1,5 +1,7 @@
 //! The immutable inputs of a solve: pictures, G-buffers, and their samples at the sizes in use.
 
+use std::borrow::Cow;
+
 use capture::gbuffer::{Atlas, GBuffer};
 use capture::projection::{Projection, per_texel};
 use capture::{Capture, CaptureError, View};
@@ -65,14 +67,39 @@ impl<'a> Scene<'a> {
         weights: Option<&ViewWeightConfig>,
         size: usize,
     ) -> Samples {
-        let views: Vec<View> = self.capture.train.par_iter().map(View::half).collect();
-        let gbuffers = GBuffer::of_views(&self.capture.mesh, &views);
+        let Pictures { views, gbuffers } = self.halved(1);
         let weights = weights.cloned().map(|mut weights| {
             weights.depth_blur *= 0.5;
             weights
         });
         self.space.training(&views, &gbuffers, weights.as_ref(), size)
     }
+
+    /// The training views, their width and height halved some times.
+    pub fn halved(&self, times: usize) -> Pictures<'_> {
+        let mut pictures = Pictures {
+            views: Cow::Borrowed(&self.capture.train),
+            gbuffers: Cow::Borrowed(&self.gbuffers),
+        };
+        for _ in 0..times {
+            pictures.views = pictures.views.par_iter().map(View::half).collect();
+        }
+        if times > 0 {
+            pictures.gbuffers = GBuffer::of_views(&self.capture.mesh, &pictures.views).into();
+        }
+        pictures
+    }
+
+    /// The number of pixels of the training views that show the mesh.
+    pub fn pixels(&self) -> usize {
+        self.gbuffers.iter().map(GBuffer::len).sum()
+    }
+}
+
+/// Training views of one resolution, with their G-buffers.
+pub(crate) struct Pictures<'a> {
+    pub views: Cow<'a, [View]>,
+    pub gbuffers: Cow<'a, [GBuffer]>,
 }
 
 /// The factor that scales the training pictures to a mean of `target_luminance` where they show the mesh; 1 if they are

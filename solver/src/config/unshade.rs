@@ -140,16 +140,6 @@ pub struct ReliefConfig {
     pub minimum_agreement: f32,
 }
 
-/// Side of the texture on which [`ReliefConfig::steps`] are taken, texels.
-const SIDE_OF_STEPS: usize = 256;
-
-impl ReliefConfig {
-    /// Conjugate-gradient steps per reweighting on a texture of this side: a step carries information by a texel.
-    pub(crate) fn steps_on(&self, side: usize) -> usize {
-        (self.steps * side).div_ceil(SIDE_OF_STEPS)
-    }
-}
-
 /// The diffuse albedo on the full pictures.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -184,6 +184,29 @@ mod tests {
     }
 
     #[test]
+    fn cells_have_the_means_of_a_picture() {
+        let (width, height) = (64, 33);
+        let mut picture = Picture::new(width, height, 3);
+        let direction = |x: usize, y: usize| {
+            let (polar, azimuth) = (
+                std::f32::consts::PI * y as f32 / (height - 1) as f32,
+                std::f32::consts::TAU * (x as f32 + 0.5) / width as f32,
+            );
+            let (sin, cos) = polar.sin_cos();
+            Vec3::new(sin * azimuth.sin(), cos, -sin * azimuth.cos())
+        };
+        for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+            let d = direction(x, y);
+            picture.pixel_mut(x, y).copy_from_slice(&(Vec3::ONE + 0.5 * d).to_array());
+        }
+        let sky = Sky::lat_long(8);
+        for (mean, centre) in sky.means(&picture).chunks_exact(CHANNELS).zip(sky.centres()) {
+            let expected = Vec3::ONE + 0.5 * centre;
+            assert!(Vec3::from_slice(mean).distance(expected) < 0.03, "{centre}: {mean:?}");
+        }
+    }
+
+    #[test]
     fn a_uniform_light_has_no_contrast_and_a_lamp_has_much() {
         let cells = Sky::lat_long(16).len();
         let mut light = vec![0.5; CHANNELS * cells];

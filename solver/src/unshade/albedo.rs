@@ -26,8 +26,8 @@ const LEAST_DIVISOR: f32 = 0.02;
 /// Weight of the prior in hair that labels call skin, relative to skin: strands on skin vary more than hair or skin
 /// alone. The fit has one weight of the prior for all texels, so the weights of these samples are divided by it.
 const PRIOR_OF_HAIR_IN_SKIN: f32 = 0.33;
-/// Standard deviation of the neighbourhood from which hair, brows and lips are inpainted, texels.
-const INPAINTING_REACH: f32 = 60.0;
+/// Standard deviation of the neighbourhood from which hair, brows and lips are inpainted, over the texture's side.
+const INPAINTING_REACH: f32 = 0.117;
 
 /// The unscaled diffuse albedo (see [`JointEstimate::albedo`]) and the confidence of every texel, 0 to 1.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -122,7 +122,8 @@ pub(super) fn fit_albedo(
     };
     let prior_weight = config.albedo.prior;
     let picture_weights = picture_weight(prior_weight, &diffuse_samples, &shading);
-    inpaint_from_region(&mut diffuse, regions, &face.skin, &picture_weights, INPAINTING_REACH);
+    let reach = INPAINTING_REACH * size as f32;
+    inpaint_from_region(&mut diffuse, regions, &face.skin, &picture_weights, reach);
     let steps = AlbedoSteps { iterations: config.albedo.steps, prior_weight, minimum: 0.0 };
     let adam = Adam::new(&AdamConfig::default(), config.albedo.rate, diffuse.len());
     let no_highlights = Planes::from_fn(diffuse_samples.len(), |i| {

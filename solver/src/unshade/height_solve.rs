@@ -86,7 +86,7 @@ impl<'a> HeightProblem<'a> {
             albedo: samples.taps.sample::<CHANNELS>(&albedo),
             shading_with_derivative: lighting.shading_with_derivative(samples),
             highlights: lighting.highlights(backend, &joint.terms, samples, LIGHT_EXPONENT),
-            steps: config.steps_on(size),
+            steps: config.steps,
             neighbourhood: Neighbourhood::new(config, samples, views),
         }
     }

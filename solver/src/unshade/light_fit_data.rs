@@ -5,7 +5,7 @@ use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::semantic::regions::FaceRegions;
 
-/// The pictures at half resolution on the transport's texture, with the region and the region's colour of every texel.
+/// The halved pictures on the transport's texture, with the region and the region's colour of every texel.
 pub(super) struct LightFitData<'a> {
     pub known: Known<'a>,
     pub samples: &'a Samples,

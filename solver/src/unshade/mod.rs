@@ -70,7 +70,10 @@ pub(crate) fn solve(
     let sky = Sky::lat_long(config.transport.rows);
     let far = Transport::with_nearness(&capture.mesh, &sky, &config.transport, config.seed);
     run.record_time("rays");
-    let coarse_samples = scene.samples_at_half_resolution(None, coarse_size);
+    let pictures = scene.halved(light_halvings(scene.pixels(), config.light.samples));
+    let coarse_samples =
+        scene.space.training(&pictures.views, &pictures.gbuffers, None, coarse_size);
+    drop(pictures);
     let data = LightFitData {
         known,
         samples: &coarse_samples,
@@ -136,6 +139,12 @@ pub(crate) fn solve(
         sample_count: full_samples.len(),
     };
     assemble(run, &scene, config, estimates, layer_sink)
+}
+
+/// How often the pictures are halved for the light fits: once, and on as long as `samples` of their `pixels` are left.
+/// Larger pictures then have less noise at the same number of samples.
+fn light_halvings(pixels: usize, samples: usize) -> usize {
+    (2..).find(|halvings| pixels >> (2 * halvings) < samples.max(1)).unwrap_or(2) - 1
 }
 
 /// Casts the rays from the estimated distance of the light, with bounces by the face's own reflectance.

@@ -1,7 +1,9 @@
 //! Relief from heights, coarse to fine. Each linearisation is on a texture of twice the side of the previous one, since
 //! a step of conjugate gradients propagates information by one texel.
 
-use capture::gbuffer::Atlas;
+use std::borrow::Cow;
+
+use capture::gbuffer::{Atlas, GBuffer};
 use serde::{Deserialize, Serialize};
 
 use super::height_solve::{BLUR, HeightProblem};
@@ -15,10 +17,12 @@ use crate::model::samples::Samples;
 use crate::model::texture::{interleave, part, resample};
 use crate::run::Run;
 use crate::run::error::SolveError;
-use crate::scene::Scene;
+use crate::scene::{Pictures, Scene};
 
 /// Least side of a texture of heights, texels.
 const LEAST_SIDE: usize = 16;
+/// Largest side of the coarsest texture of heights, texels: about 2 mm a texel.
+const COARSEST_SIDE: usize = 128;
 
 /// Least number of views on a side: with fewer, little is left after the mean over a texel's views is subtracted.
 const LEAST_VIEWS: usize = 3;
@@ -80,11 +84,11 @@ pub(super) fn fit_relief(
     let (backend, steps) = (run.backend, steps(config, scene.size, scene.capture.train.len()));
     run.foreign_steps(name, steps, |step| {
         let mut unknowns: Option<(usize, Vec<f32>)> = None;
-        let sizes = texture_sizes(config, scene.size);
-        let mut relief = Relief::none(sizes[0]);
+        let levels = levels(config, scene.size);
+        let mut relief = Relief::none(levels[0].size);
         let mut share = 1.0;
-        for size in sizes {
-            let level = Level::new(backend, config, scene, lighting, joint, size);
+        for LevelSize { size, halvings } in levels {
+            let level = Level::new(backend, config, scene.halved(halvings), scene, lighting, joint, size);
             let problem = level.height_problem(&level.samples);
             let coarsest = unknowns.is_none();
             let mut x = match unknowns.take() {
@@ -121,6 +125,7 @@ struct Level<'a> {
     backend: &'a dyn Backend,
     config: &'a ReliefConfig,
     scene: &'a Scene<'a>,
+    gbuffers: Cow<'a, [GBuffer]>,
     lighting: &'a Lighting<'a>,
     joint: &'a JointEstimate,
     atlas: Atlas,
@@ -131,18 +136,21 @@ impl<'a> Level<'a> {
     fn new(
         backend: &'a dyn Backend,
         config: &'a ReliefConfig,
+        pictures: Pictures<'a>,
         scene: &'a Scene,
         lighting: &'a Lighting,
         joint: &'a JointEstimate,
         size: usize,
     ) -> Self {
-        let (atlas, samples) = (Atlas::new(&scene.capture.mesh, size), scene.samples(None, size));
-        Self { backend, config, scene, lighting, joint, atlas, samples }
+        let Pictures { views, gbuffers } = pictures;
+        let atlas = Atlas::new(&scene.capture.mesh, size);
+        let samples = scene.space.training(&views, &gbuffers, None, size);
+        Self { backend, config, scene, gbuffers, lighting, joint, atlas, samples }
     }
 
     fn height_problem<'b>(&'b self, samples: &'b Samples) -> HeightProblem<'b> {
-        let Self { backend, config, scene, lighting, joint, ref atlas, .. } = *self;
-        HeightProblem::new(config, backend, samples, &scene.gbuffers, atlas, lighting, joint)
+        let Self { backend, config, ref gbuffers, lighting, joint, ref atlas, .. } = *self;
+        HeightProblem::new(config, backend, samples, gbuffers, atlas, lighting, joint)
     }
 
     /// The plausible share of the relief. The views of each side yield a relief, which is compared with the pictures
@@ -206,16 +214,32 @@ impl<'a> Level<'a> {
 
 /// The largest number of conjugate-gradient steps for textures of side `size` and this number of training views.
 pub(super) fn steps(config: &ReliefConfig, size: usize, views: usize) -> usize {
-    let sizes = texture_sizes(config, size);
-    let of_size = |size: &usize| config.reweightings * config.steps_on(*size);
+    let of_level = config.reweightings * config.steps;
     let has_test = config.minimum_agreement > 0.0 && views >= 2 * LEAST_VIEWS;
-    sizes.iter().map(of_size).sum::<usize>() + if has_test { 2 * of_size(&sizes[0]) } else { 0 }
+    of_level * (levels(config, size).len() + if has_test { 2 } else { 0 })
 }
 
-/// The sides of the textures of heights, one for every linearisation, ascending.
-fn texture_sizes(config: &ReliefConfig, size: usize) -> Vec<usize> {
+/// A level of the coarse-to-fine fit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct LevelSize {
+    /// Side of the texture of heights, texels.
+    size: usize,
+    /// How often the pictures are halved.
+    halvings: usize,
+}
+
+/// The levels, one for every linearisation, from coarse to fine. The coarsest texture has at most [`COARSEST_SIDE`]
+/// texels a side, so that larger pictures refine what smaller ones show. The pictures are halved with the textures,
+/// but not on the coarsest of the [`ReliefConfig::linearisations`].
+fn levels(config: &ReliefConfig, size: usize) -> Vec<LevelSize> {
     let finest = (size as f32 * config.texture_scale) as usize;
-    (0..config.linearisations).rev().map(|halved| (finest >> halved).max(LEAST_SIDE)).collect()
+    let more = (0..).find(|more| finest >> (config.linearisations - 1 + more) <= COARSEST_SIDE);
+    let more = more.unwrap_or(0);
+    let level = |halved: usize| LevelSize {
+        size: (finest >> halved).max(LEAST_SIDE),
+        halvings: halved.min(more),
+    };
+    (0..config.linearisations + more).rev().map(level).collect()
 }
 
 /// Resamples the unknowns, heights in texels and changes of the albedo, from side `of` to a larger side.
@@ -235,6 +259,17 @@ mod tests {
     use super::*;
     use crate::model::height::HeightField;
     use crate::testing;
+
+    #[test]
+    fn larger_textures_add_finer_levels_with_finer_pictures() {
+        let config = crate::config::UnshadeConfig::default().relief;
+        let of = |size: usize| -> Vec<(usize, usize)> {
+            levels(&config, size).iter().map(|level| (level.size, level.halvings)).collect()
+        };
+        assert_eq!(of(256), [(64, 0), (128, 0)]);
+        assert_eq!(of(512), [(128, 0), (256, 0)]);
+        assert_eq!(of(2048), [(128, 2), (256, 2), (512, 1), (1024, 0)]);
+    }
 
     #[test]
     fn heights_deviate_normals_alike_on_a_texture_of_another_side() {

@@ -4,6 +4,7 @@ mod confidence;
 mod height_solve;
 mod highlights;
 mod interrupts;
+mod known;
 mod recolour;
 
 use std::ops::ControlFlow;
@@ -41,6 +42,12 @@ fn samples(size: usize) -> Samples {
 /// Mean squared error to decibels.
 fn decibels(errors: &[f32]) -> f32 {
     -10.0 * (errors.iter().map(|e| e * e).sum::<f32>() / errors.len() as f32).log10()
+}
+
+#[test]
+fn larger_pictures_are_halved_to_as_many_pixels() {
+    let halvings = [1, 267_565, 4 * 267_565, 16 * 267_565].map(|pixels| light_halvings(pixels, 40_000));
+    assert_eq!(halvings, [1, 1, 2, 3]);
 }
 
 #[test]
