@@ -26,6 +26,9 @@ const LEAST_DIVISOR: f32 = 0.02;
 /// Weight of the prior in hair that labels call skin, relative to skin: strands on skin vary more than hair or skin
 /// alone. The fit has one weight of the prior for all texels, so the weights of these samples are divided by it.
 const PRIOR_OF_HAIR_IN_SKIN: f32 = 0.33;
+/// Side of the texture on which `albedo.prior` is stated, texels. The prior is a mean over texels of the differences
+/// between neighbours, which halve with the texels; its weight grows with the side, so that it tends to an integral.
+const SIDE_OF_PRIOR: f32 = 512.0;
 /// Standard deviation of the neighbourhood from which hair, brows and lips are inpainted, over the texture's side.
 const INPAINTING_REACH: f32 = 0.117;
 
@@ -124,7 +127,11 @@ pub(super) fn fit_albedo(
     let picture_weights = picture_weight(prior_weight, &diffuse_samples, &shading);
     let reach = INPAINTING_REACH * size as f32;
     inpaint_from_region(&mut diffuse, regions, &face.skin, &picture_weights, reach);
-    let steps = AlbedoSteps { iterations: config.albedo.steps, prior_weight, minimum: 0.0 };
+    let steps = AlbedoSteps {
+        iterations: config.albedo.steps,
+        prior_weight: prior_weight * size as f32 / SIDE_OF_PRIOR,
+        minimum: 0.0,
+    };
     let adam = Adam::new(&AdamConfig::default(), config.albedo.rate, diffuse.len());
     let no_highlights = Planes::from_fn(diffuse_samples.len(), |i| {
         let [r, g, b]: [f32; CHANNELS] = shading.sample(i, 0);

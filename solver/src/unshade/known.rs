@@ -26,8 +26,9 @@ pub(super) struct Known<'a> {
 }
 
 impl<'a> Known<'a> {
-    pub fn new(scene: &'a Scene) -> Self {
-        Self { truth: &scene.capture.truth, picture_scale: scene.picture_scale }
+    /// `picture_scale` is that of the [`Scene`].
+    pub fn new(truth: &'a Truth, picture_scale: f32) -> Self {
+        Self { truth, picture_scale }
     }
 
     /// The configuration, in which a known light has no learning rate.

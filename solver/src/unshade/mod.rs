@@ -58,7 +58,7 @@ pub(crate) fn solve(
     let space = SampleSpace::default().with_perturbed_pictures(config.rendering.rounding_seed);
     let target_luminance = Some(config.rendering.exposure);
     let scene = Scene::new(capture, space, target_luminance, config.maps.texture_size)?;
-    let known = Known::new(&scene);
+    let known = Known::new(&capture.truth, scene.picture_scale);
     let config = &known.configured(config);
     let coarse_size = config.transport.texture_size;
 

@@ -88,7 +88,8 @@ pub(super) fn fit_relief(
         let mut relief = Relief::none(levels[0].size);
         let mut share = 1.0;
         for LevelSize { size, halvings } in levels {
-            let level = Level::new(backend, config, scene.halved(halvings), scene, lighting, joint, size);
+            let level =
+                Level::new(backend, config, scene.halved(halvings), scene, lighting, joint, size);
             let problem = level.height_problem(&level.samples);
             let coarsest = unknowns.is_none();
             let mut x = match unknowns.take() {

@@ -285,7 +285,10 @@ fn highlights_show_the_roughness_of_skin() {
         let config = RoughnessConfig { rounds: 3, error: 0.0, ..lamp.config.roughness.clone() };
         let (flat, backend) = (Relief::none(side), Cpu::new());
         let face = FaceRegions::default();
-        let pictures = FullPictures { samples: &lamp.samples, face: &face, regions: &regions };
+        let nothing = capture::Truth::default();
+        let known = Known::new(&nothing, 1.0);
+        let pictures =
+            FullPictures { known, samples: &lamp.samples, face: &face, regions: &regions };
         let measured = measure_roughness(&backend, &config, &lighting, &pictures, &flat, &terms);
         let found = measured.of(1).roughness;
         let error = |roughness: f32| (roughness / truth).ln().abs();

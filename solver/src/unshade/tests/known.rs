@@ -4,6 +4,7 @@ use capture::TruthPart;
 use capture::gbuffer::Atlas;
 
 use super::*;
+use crate::transport::CHANNELS;
 
 /// Side of the true maps, texels.
 const SIDE: usize = 64;

@@ -46,7 +46,8 @@ fn decibels(errors: &[f32]) -> f32 {
 
 #[test]
 fn larger_pictures_are_halved_to_as_many_pixels() {
-    let halvings = [1, 267_565, 4 * 267_565, 16 * 267_565].map(|pixels| light_halvings(pixels, 40_000));
+    let halvings =
+        [1, 267_565, 4 * 267_565, 16 * 267_565].map(|pixels| light_halvings(pixels, 40_000));
     assert_eq!(halvings, [1, 1, 2, 3]);
 }
 

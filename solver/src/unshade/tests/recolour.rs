@@ -40,7 +40,7 @@ fn under_a_known_light_hair_in_the_shade_gets_its_own_colour_and_skin_stays() {
         terms: RegionTerms::prior(0.0, &face.skin, &regions),
     };
     let data = LightFitData {
-        known: Known::new(&scene),
+        known: Known::new(&capture.truth, scene.picture_scale),
         samples: &scene.samples_at_half_resolution(None, size),
         face: &face,
         regions: &regions,
