@@ -15,6 +15,9 @@ use crate::model::texture::shrunk;
 use crate::scene::Scene;
 use crate::transport::{CHANNELS, Sky, Transport, luminances};
 
+/// Least radiance of a cell over the mean shading: the logarithm of a black cell is finite, and so is the colour of its
+/// shading.
+const LEAST_RADIANCE: f32 = 1e-6;
 /// Least true albedo by which a diffuse layer is divided.
 const LEAST_ALBEDO: f32 = 1e-3;
 
@@ -53,7 +56,7 @@ impl<'a> Known<'a> {
         let relative = nearness / far.nearness_unit();
         let shading = luminances(&far.shading_nearer(&cells, relative).0);
         let mean = shading.iter().sum::<f32>() / shading.len().max(1) as f32;
-        let log = |radiance: &f32| (radiance / mean).max(f32::MIN_POSITIVE).ln();
+        let log = |radiance: &f32| (radiance / mean).max(LEAST_RADIANCE).ln();
         Some((cells.iter().map(log).collect(), nearness))
     }
 
