@@ -202,7 +202,7 @@ mod tests {
         let sky = Sky::lat_long(8);
         for (mean, centre) in sky.means(&picture).chunks_exact(CHANNELS).zip(sky.centres()) {
             let expected = Vec3::ONE + 0.5 * centre;
-            assert!(Vec3::from_slice(mean).distance(expected) < 0.03, "{centre}: {mean:?}");
+            assert!(Vec3::from_slice(mean).distance(expected) < 0.06, "{centre}: {mean:?}");
         }
     }
 

@@ -16,6 +16,8 @@ pub(super) const RESIDUAL_FLOOR: f32 = 0.002;
 /// Standard deviation of the neighbourhood in which residuals are compared, over the side of a square as large as the
 /// mesh in the view.
 const NEIGHBOURHOOD: f32 = 0.018;
+/// Its least standard deviation, pixels: a smaller neighbourhood would be the pixel itself.
+const LEAST_NEIGHBOURHOOD: f32 = 3.0;
 /// Standard deviation of the blur that gives the components too coarse for relief, over the same side.
 const COARSEST: f32 = 0.075;
 /// Pixels this close to the silhouette are left out: they mix two surfaces.
@@ -52,7 +54,8 @@ impl<'a> Neighbourhood<'a> {
             };
             [residual.iter().map(|z| z * z).sum(), (0..3).map(usual).sum(), 0.0]
         });
-        let around = self.around(&squares, NEIGHBOURHOOD);
+        let sigma = |side: f32| (NEIGHBOURHOOD * side).max(LEAST_NEIGHBOURHOOD);
+        let around = self.around(&squares, sigma);
         Planes::from_fn(self.samples.len(), |i| {
             let [residual, usual]: [f32; 2] = around.sample(i, 0);
             let share = (usual / residual.max(f32::MIN_POSITIVE)).min(1.0);
@@ -62,7 +65,7 @@ impl<'a> Neighbourhood<'a> {
 
     /// `residual` (3 rows) without its part coarser than [`COARSEST`].
     pub fn without_coarse(&self, residual: &Planes) -> Planes {
-        let coarse = self.around(residual, COARSEST);
+        let coarse = self.around(residual, |side| COARSEST * side);
         self.each(|i| {
             let (fine, coarse): ([f32; 3], [f32; 3]) = (residual.sample(i, 0), coarse.sample(i, 0));
             std::array::from_fn(|c| fine[c] - coarse[c])
@@ -73,9 +76,9 @@ impl<'a> Neighbourhood<'a> {
         Planes::from_fn(self.samples.len(), values)
     }
 
-    /// Three rows of values, blurred over the inner pixels of each view; `sigma` is relative to the side of a square as
+    /// Three rows of values, blurred over the inner pixels of each view; `sigma` in pixels, by the side of a square as
     /// large as the mesh in the view.
-    fn around(&self, values: &Planes, sigma: f32) -> Planes {
+    fn around(&self, values: &Planes, sigma: impl Fn(f32) -> f32) -> Planes {
         // The values and the coverage of every view.
         let shape = |view: &GBuffer| Shape { width: view.width, height: view.height, channels: 4 };
         let mut pictures: Vec<Vec<f32>> =
@@ -85,7 +88,7 @@ impl<'a> Neighbourhood<'a> {
             pictures[view][4 * pixel..][..4].copy_from_slice(&[a, b, c, 1.0]);
         }
         for (picture, view) in pictures.iter_mut().zip(self.views) {
-            *picture = blurred(picture, shape(view), sigma * (view.len() as f32).sqrt());
+            *picture = blurred(picture, shape(view), sigma((view.len() as f32).sqrt()));
         }
         self.each(|i| {
             let (view, pixel) = (self.samples.view_index[i], self.samples.pixel[i]);
