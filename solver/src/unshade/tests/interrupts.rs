@@ -13,7 +13,7 @@ pub fn short() -> UnshadeConfig {
     config.light.steps = 24;
     config.joint.grey_steps = 16;
     config.joint.steps = 5;
-    config.relief.steps = 32;
+    config.relief.steps = 4;
     config.albedo.steps = 6;
     config
 }
