@@ -32,6 +32,7 @@ pub(super) fn run_command_line(py: Python<'_>, arguments: Vec<std::ffi::OsString
 /// `progress(stage, iteration, total, loss)` may be given.
 #[pyfunction]
 #[pyo3(signature = (capture, config, is_text, out=None, progress=None, backend="auto", given=vec![]))]
+#[allow(clippy::too_many_arguments)]
 pub(super) fn solve<'py>(
     py: Python<'py>,
     capture: &Bound<'py, Capture>,

@@ -45,7 +45,7 @@ pub fn read(bytes: &[u8]) -> Result<Vec<Object>, ObjError> {
     let options = tobj::LoadOptions { single_index: true, ..Default::default() };
     let no_materials = |_: &std::path::Path| Ok(Default::default());
     let (models, _) = tobj::load_obj_buf(&mut text.as_slice(), &options, no_materials)
-        .expect("tobj reads what the normaliser writes");
+        .map_err(|error| ObjError { line: 1, reason: error.to_string() })?;
     let mut cutter = Cutter::default();
     objects
         .into_iter()

@@ -1,7 +1,6 @@
 //! Rewrites an OBJ file as the plain text that tobj reads, and refuses faults by their line.
 
 use std::collections::HashMap;
-use std::io::Write;
 
 use super::error::ObjError;
 use super::text::{Line, Lines, Values};
@@ -88,7 +87,7 @@ impl File {
     }
 
     fn list(&mut self, list: usize, line: std::fmt::Arguments) {
-        writeln!(self.text, "{line}").expect("memory takes all bytes");
+        self.text.extend_from_slice(format!("{line}\n").as_bytes());
         self.counts[list] += 1;
     }
 
@@ -177,7 +176,7 @@ impl ObjectFaces {
                 0 => String::new(),
                 index => index.to_string(),
             });
-            write!(self.text, " {position}/{uv}/{normal}").expect("memory takes all bytes");
+            self.text.extend_from_slice(format!(" {position}/{uv}/{normal}").as_bytes());
         }
         self.text.push(b'\n');
     }
