@@ -190,7 +190,7 @@ def test_missing_pictures_and_unsupported_keys_are_refused(tmp_path: Path, tiny_
         assert done.returncode == 2 and reason in done.stderr and done.stderr.count("\n") == 1, done.stderr
 
     (tmp_path / "x.py").write_text("")
-    refused(f'{words}, "{{lights}}"]\n', 'state gives = "pictures"')
+    refused(f'{words}, "{{lights}}"]\n', "add gives, or remove {lights}")
     refused('python = "x:y"\ngives = "pictures"\n', "write a command")
     refused('config = "fast"\ngives = "pictures"\n', "does not support gives")
     refused(f"{words}]\ntexture_size = 64\n", "does not support texture_size")

@@ -26,7 +26,7 @@ def test_a_name_stands_for_what_comes_with_unshade(tmp_path: Path, monkeypatch: 
     assert failed.returncode == 2 and not Path("run").exists()
     assert (
         failed.stderr.count("\n") == 1
-        and " ci, competitors, degraded, demo, emily, emily-small, held-out, " in failed.stderr
+        and " ci, competitors, degraded, demo, emily, emily-medium, emily-small, held-out, " in failed.stderr
     )
     with pytest.raises(unshade.errors.SceneError, match="no scene of this name comes with unshade; there are ci, demo"):
         unshade.synth("dmeo", "capture")

@@ -12,7 +12,7 @@ use crate::first_look;
 use crate::mesh::Mesh;
 use crate::orientation::{self, Flipped};
 use crate::transforms::Transforms;
-use crate::truth::Truth;
+use crate::truth::{Truth, TruthPart};
 use crate::uv_layout::{self, Layout, LayoutFault, Parts};
 use crate::view::View;
 
@@ -116,8 +116,10 @@ impl Capture {
         &self.hash
     }
 
-    /// Sets the parts of the truth that are held fixed, and adds their names to the hash.
-    pub(crate) fn set_truth(&mut self, truth: Truth) {
+    /// Reads these parts of the truth, for a solve that holds them fixed. The [hash](Capture::hash) changes, so that no
+    /// result of such a solve passes for one without.
+    pub fn with_truth(mut self, parts: &[TruthPart]) -> Result<Self, CaptureError> {
+        let truth = Truth::read(&self.folder.join("truth"), &self.train, parts)?;
         if !truth.parts.is_empty() {
             let mut hasher = blake3::Hasher::new();
             hasher.update(self.hash.as_bytes());
@@ -127,6 +129,7 @@ impl Capture {
             self.hash = hasher.finalize().to_hex().to_string();
         }
         self.truth = truth;
+        Ok(self)
     }
 
     /// The ids of the labels with one of these names.

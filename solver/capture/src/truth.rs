@@ -7,7 +7,7 @@ use std::str::FromStr;
 use formats::picture::{self, Picture};
 
 use crate::error::CaptureError;
-use crate::folder::Capture;
+use crate::view::View;
 
 /// A part of the truth that a solve can hold fixed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -87,14 +87,16 @@ pub struct TrueLight {
     pub distance: Option<f32>,
 }
 
-impl Capture {
-    /// Reads these parts of the truth, for a solve that holds them fixed. The [hash](Capture::hash) changes, so that no
-    /// result of such a solve passes for one without.
-    pub fn with_truth(mut self, parts: &[TruthPart]) -> Result<Self, CaptureError> {
-        let folder = self.folder.join("truth");
+impl Truth {
+    /// Reads parts from the truth's `folder` of a capture with these training views.
+    pub(crate) fn read(
+        folder: &Path,
+        train: &[View],
+        parts: &[TruthPart],
+    ) -> Result<Self, CaptureError> {
         if !parts.is_empty() && !folder.is_dir() {
             let reason = "there is no truth to give; render the capture with `unshade synth`";
-            return Err(CaptureError::Truth { path: folder, reason: reason.to_owned() });
+            return Err(CaptureError::Truth { path: folder.to_owned(), reason: reason.to_owned() });
         }
         let mut truth = Truth { parts: parts.to_vec(), ..Truth::default() };
         truth.parts.sort_unstable();
@@ -104,7 +106,7 @@ impl Capture {
         let layers = |layer: &str| -> Result<Vec<Picture>, CaptureError> {
             let channels = rgb.map(|channel| format!("{layer}.{channel}"));
             let channels = channels.each_ref().map(String::as_str);
-            let of_view = |view: &crate::View| {
+            let of_view = |view: &View| {
                 let file = format!("layers/{}.exr", view.camera.name);
                 let layer = map(&file, &channels)?;
                 let size = [view.camera.width, view.camera.height];
@@ -115,13 +117,13 @@ impl Capture {
                 }
                 Ok(layer)
             };
-            self.train.iter().map(of_view).collect()
+            train.iter().map(of_view).collect()
         };
         for part in &truth.parts {
             match part {
                 TruthPart::Light => {
                     let picture = map("light.exr", &rgb)?;
-                    truth.light = Some(TrueLight { picture, distance: distance(&folder)? });
+                    truth.light = Some(TrueLight { picture, distance: distance(folder)? });
                 }
                 TruthPart::Specular => truth.specular = Some(map("specular_albedo.exr", &["Y"])?),
                 TruthPart::Roughness => truth.roughness = Some(map("roughness.exr", &["alpha1"])?),
@@ -136,8 +138,7 @@ impl Capture {
                 }
             }
         }
-        self.set_truth(truth);
-        Ok(self)
+        Ok(truth)
     }
 }
 

@@ -7,7 +7,6 @@ use formats::picture::Picture;
 use glam::Vec3;
 
 use super::region_terms::RegionTerms;
-use super::relief::Relief;
 use crate::config::UnshadeConfig;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
@@ -70,8 +69,8 @@ impl<'a> Known<'a> {
         terms.with_known([reflectance, roughness])
     }
 
-    /// The known deviations of the normals on a texture of the scene's size.
-    pub fn relief(&self, scene: &Scene) -> Option<Relief> {
+    /// The known deviations of specular and diffuse normals on a texture of the scene's size.
+    pub fn deviations(&self, scene: &Scene) -> Option<[Vec<f32>; 2]> {
         let size = scene.size;
         let atlas = Atlas::new(&scene.capture.mesh, size);
         let deviation = |normals: &Picture| -> Vec<f32> {
@@ -82,8 +81,7 @@ impl<'a> Known<'a> {
                 .collect()
         };
         let [specular, diffuse] = self.truth.normals.as_ref()?;
-        let (deviation, diffuse) = (deviation(specular), Some(deviation(diffuse)));
-        Some(Relief { size, deviation, diffuse })
+        Some([deviation(specular), deviation(diffuse)])
     }
 
     /// Replaces the highlights of the samples by the known ones.

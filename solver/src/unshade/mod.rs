@@ -110,8 +110,10 @@ pub(crate) fn solve(
     drop(coarse_samples);
     let lighting = Lighting::new(config, &near, &coarse_regions, &light, &joint);
 
-    let relief = run.stage("relief", |run, name| match known.relief(&scene) {
-        Some(relief) => Ok(relief),
+    let relief = run.stage("relief", |run, name| match known.deviations(&scene) {
+        Some([deviation, diffuse]) => {
+            Ok(Relief { size: scene.size, deviation, diffuse: Some(diffuse) })
+        }
         None if run.is_interrupted() => Ok(Relief::none(scene.size)),
         None => fit_relief(run, name, &config.relief, &scene, &lighting, &joint),
     })?;
