@@ -28,7 +28,7 @@ pub enum ViewError {
     Compare {
         /// The maps' folder.
         path: PathBuf,
-        /// What the comparison refused.
+        /// The reason.
         reason: MetricError,
     },
     /// The page must not be written where it was to be.

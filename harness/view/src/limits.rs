@@ -1,4 +1,4 @@
-//! What one page holds.
+//! Limits of a page.
 
 /// Methods of a page, at most: one pane each beside the truth.
 pub const MOST_METHODS: usize = 3;

@@ -59,7 +59,7 @@ pub(crate) struct Array {
     pub codes: Vec<i64>,
 }
 
-/// What the page knows of an array before it loads it.
+/// The header of an array; the page loads its values when they are shown.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Stored {
     /// The script's name in `data/`, without its ending.

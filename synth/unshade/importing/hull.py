@@ -25,7 +25,7 @@ Points = NDArray[np.float64]
 _COARSE, _FINE = 48, 128
 """Cells along the longest side of the grid that finds the hull's bounds, and of the one that is cut."""
 _TRIANGLES = 12_000
-"""Of the finished mesh."""
+"""Largest number of triangles of the finished mesh."""
 _ROUNDS, _SHRINK, _GROW = 10, 0.5, -0.53
 """Smoothing that keeps the volume (Taubin 1995): rounds, and the factors of the two steps of each."""
 _LEAST_VIEWS = 3
