@@ -293,6 +293,41 @@ def test_a_dropped_file_stands_as_the_captures_light_does(
     assert np.abs(factor * found - expected).mean() < 0.02 * expected.mean()
 
 
+def test_the_suites_lights_are_those_of_the_files(head: Head, tiny_run: Path) -> None:
+    files = sorted((tiny_run / "captures" / CASE / "truth" / "lights").glob("*.exr"))
+    assert files
+    names = head.page.run("[...document.getElementById('light').options].map(({ textContent }) => textContent)")
+    assert {file.stem for file in files} <= set(names)
+    for i, file in enumerate(files):
+        head.choose("light", f"light{i}")
+        found = head.page.run(f"""(async () => {{
+            const light = unshadeView.lights.find(({{ id }}) => id === "light{i}"), {{ width, height, numbers }} = await light.read();
+            return {{ title: light.title, width, height, numbers: [...numbers.subarray(0, 3 * width * height)] }};
+        }})()""")
+        expected = np.array(mi.Bitmap(str(file)))[..., :3]
+        assert found["title"] == file.stem and (found["height"], found["width"]) == expected.shape[:2]
+        np.testing.assert_allclose(found["numbers"], expected.ravel(), rtol=2.0**-10, atol=1e-6)
+        assert head.linear("truth")[..., :3].max() > 0.1
+
+
+def test_a_capture_without_truth_is_shown_and_told(
+    chromium: browser.Page, photographs: Path, tiny_run: Path, tmp_path: Path
+) -> None:
+    """Photographs have no truth: no errors, no worst spots, and predictions by the light that the method found."""
+    unshade("view", photographs, tiny_run / "maps" / CASE / "quick", "-o", tmp_path / "page")
+    chromium.faults.clear()
+    head = Head(chromium, tmp_path / "page")
+    head.open("#light=method0")
+    assert [pane["title"] for pane in head.page.run("unshadeView.scene.panes")] == ["quick"]
+    assert head.page.run("document.querySelectorAll('#layer option[value^=error]').length") == 0
+    assert head.state()["light"] == "method0" and head.linear("quick")[..., :3].max() > 0.1
+    head.page.run("document.getElementById('stage').focus()")
+    head.page.run("document.getElementById('stage').dispatchEvent(new KeyboardEvent('keydown', { key: 'Enter' }))")
+    head.page.until("unshadeView.told !== undefined")
+    assert "as recovered by quick" in head.page.run("document.getElementById('story').textContent")
+    assert chromium.faults == []
+
+
 def test_a_phones_width_is_enough(head: Head) -> None:
     head.open(width=420)
     assert head.page.run("document.documentElement.scrollWidth") <= 420

@@ -46,7 +46,7 @@ impl Named for ViewError {
             Self::Picture(error) => error.class(),
             Self::Compare { reason, .. } => reason.class(),
             Self::Folder(error) => error.class(),
-            Self::Write { .. } => "StorageError",
+            Self::Read { .. } | Self::Write { .. } => "StorageError",
             Self::NoAlbedo(_) | Self::TooMany(_) => "MapsError",
         }
     }

@@ -34,6 +34,14 @@ pub enum ViewError {
     /// The page must not be written where it was to be.
     #[error(transparent)]
     Folder(#[from] FolderError),
+    /// A folder cannot be listed.
+    #[error("{path}: cannot be read: {reason}")]
+    Read {
+        /// The folder.
+        path: PathBuf,
+        /// The operating system's error.
+        reason: io::Error,
+    },
     /// A file of the page cannot be written.
     #[error("{path}: cannot be written: {reason}")]
     Write {

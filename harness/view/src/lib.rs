@@ -30,7 +30,7 @@ pub use sources::MethodMaps;
 use errors::Compared;
 use geometry::Geometry;
 use packed::{Array, Stored};
-use panes::Pane;
+use panes::{Pane, StoredLight};
 use sources::Source;
 use views::Views;
 
@@ -41,6 +41,8 @@ struct Scene {
     mesh: Geometry,
     views: Views,
     panes: Vec<Pane>,
+    /// The lights, by name, in which the suite relights the head.
+    lights: Vec<(String, StoredLight)>,
     label_names: BTreeMap<u8, String>,
     labels: Option<Stored>,
     /// For each measure the value where the colours of its errors end.
@@ -112,11 +114,17 @@ pub fn write_head(
         panes.push(pane);
     }
     let side = panes_side(truth.iter().chain(&sources));
+    let others = sources::other_lights(&truth_folder)?.into_iter().enumerate();
+    let lights = others.map(|(at, (name, light))| {
+        Ok((name, StoredLight::write(&light, true, folder, &format!("light{at}"))?))
+    });
+    let lights = lights.collect::<Result<_, ViewError>>()?;
     let scene = Scene {
         title: title.to_owned(),
         mesh: Geometry::write(&capture.mesh, folder)?,
         views: Views::write(&capture, side, folder)?,
         panes,
+        lights,
         label_names: capture.label_names.clone(),
         labels: labels.map(|map| Array::gray(&map).write(folder, "labels")).transpose()?,
         tops: all_tops.into_iter().map(|(measure, tops)| (measure, median(tops))).collect(),

@@ -41,10 +41,22 @@ pub(crate) struct Pane {
 
 /// A light as a lat-long picture.
 #[derive(Serialize)]
-struct StoredLight {
+pub(crate) struct StoredLight {
     picture: Stored,
     /// True if the first and the last row lie on the poles, false if rows are bands.
     poles: bool,
+}
+
+impl StoredLight {
+    /// Writes a light as the array `name`; one of the truth has rows on the poles.
+    pub fn write(
+        light: &Picture,
+        is_truth: bool,
+        folder: &Path,
+        name: &str,
+    ) -> Result<Self, ViewError> {
+        Ok(Self { picture: Array::half(light).write(folder, name)?, poles: is_truth })
+    }
 }
 
 impl Pane {
@@ -84,10 +96,10 @@ impl Pane {
             };
             stored.push((name.clone(), array.write(folder, &format!("{id}-{name}"))?));
         }
-        let light = source.light.as_ref().map(|light| {
-            let picture = Array::half(light).write(folder, &format!("{id}-light"))?;
-            Ok::<_, ViewError>(StoredLight { picture, poles: is_truth })
-        });
+        let light = source
+            .light
+            .as_ref()
+            .map(|light| StoredLight::write(light, is_truth, folder, &format!("{id}-light")));
         Ok(Self {
             id: id.to_owned(),
             title: title.to_owned(),

@@ -1,5 +1,6 @@
 //! The maps of the truth and of the methods, as files have them.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use formats::Maps;
@@ -81,6 +82,25 @@ impl Source {
         };
         Some(self.maps.coverage.clone().unwrap_or_else(whole))
     }
+}
+
+/// The lights, by name, in which the truth is relit beside its own.
+pub(crate) fn other_lights(truth: &Path) -> Result<Vec<(String, Picture)>, ViewError> {
+    let folder = truth.join("lights");
+    if !folder.is_dir() {
+        return Ok(Vec::new());
+    }
+    let unreadable = |reason| ViewError::Read { path: folder.clone(), reason };
+    let entries = fs::read_dir(&folder).and_then(Iterator::collect::<Result<Vec<_>, _>>);
+    let mut paths: Vec<PathBuf> =
+        entries.map_err(unreadable)?.into_iter().map(|entry| entry.path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|ending| ending == "exr"));
+    paths.sort();
+    let named = |path: PathBuf| {
+        let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        Ok((name.unwrap_or_default(), picture::read_light(&path)?))
+    };
+    paths.into_iter().map(named).collect()
 }
 
 /// The label of each texel, where the truth states it.

@@ -118,6 +118,30 @@ impl<'a> ExplicitModel<'a> {
         Regression::new(&self.samples, &weight, rows, observed)
     }
 
+    /// The factors on the highlights of each region at which they alone explain its mean picture. `weight` has the
+    /// weights of the model's samples, `regions` the region of every texel.
+    pub(super) fn highlight_limits(
+        &self,
+        light: &[f32],
+        weight: &Planes,
+        regions: &[u8],
+    ) -> [f32; 256] {
+        let predicted = self.reflection.radiance(light);
+        let mut sums = [[[0.0_f64; 2]; CHANNELS]; 256];
+        for (i, highlight) in predicted.iter().enumerate() {
+            let region = usize::from(regions[self.samples.taps.nearest(i)]);
+            for (c, [observed, alone]) in sums[region].iter_mut().enumerate() {
+                *observed += f64::from(weight.get(0, i) * self.samples.target.get(c, i));
+                *alone += f64::from(weight.get(0, i) * highlight[c]);
+            }
+        }
+        sums.map(|channels| {
+            let limits = channels.iter().filter(|[_, alone]| *alone > 0.0);
+            let limit = limits.map(|[observed, alone]| observed / alone);
+            limit.fold(f64::INFINITY, f64::min) as f32
+        })
+    }
+
     /// The loss and its gradients.
     pub(super) fn gradient(
         &self,

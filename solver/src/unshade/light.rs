@@ -99,6 +99,7 @@ pub(super) fn fit_light(
         uniformity(contrast(config.transport.rows, &light)),
         &regression,
         data.regions,
+        &model.highlight_limits(&light, &weight, data.regions),
     );
     let has_light = data.known.has_light();
     let tint = match round == config.light.rounds && !has_light {

@@ -94,6 +94,9 @@ impl RegionTerms {
     /// on a texture with these `regions`. Measurement and prior are weighted by the inverse variances; a region without
     /// highlights gets the reflectance of skin. In a light of `uniformity` 1, highlights vary only at grazing angles,
     /// where the model is least accurate.
+    ///
+    /// Outside of skin the posterior ends at `limits`, the factors on the highlights of each region at which they alone
+    /// explain its mean picture: without contrast in the light, only a positive albedo tells dark hair from a mirror.
     #[must_use]
     pub fn with_reflectance(
         &self,
@@ -101,18 +104,26 @@ impl RegionTerms {
         uniformity: f32,
         regression: &Regression,
         regions: &[u8],
+        limits: &[f32; 256],
     ) -> Self {
         let inflation = error_inflation(uniformity);
-        self.revised(regression, regions, |measured, prior, is_skin| {
+        self.revised(regression, regions, |measured, prior, region| {
             // In uniform light the slope of skin's highlights is underestimated, so its error is inflated twice. The
             // light was not fitted to highlights of other regions, whose errors are larger in any light.
-            let (error, floor, deviation) = match is_skin {
-                true => (config.skin_error * inflation * inflation, 0.0, config.skin_deviation),
-                false => {
-                    (config.region_error * inflation, config.region_floor, config.region_deviation)
+            let reflectance = match region {
+                None => {
+                    let error = config.skin_error * inflation * inflation;
+                    measured.reflectance(prior, error, 0.0, config.skin_deviation).0
+                }
+                Some(region) => {
+                    let (error, floor) = (config.region_error * inflation, config.region_floor);
+                    let posterior =
+                        measured.reflectance(prior, error, floor, config.region_deviation);
+                    let limit = limits[usize::from(region)] * measured.current.reflectance;
+                    mean_below(f64::from(limit), posterior)
                 }
             };
-            let reflectance = measured.reflectance(prior, error, floor, deviation);
+            let reflectance = reflectance as f32;
             SpecularTerm { reflectance, ..measured.current }
         })
     }
@@ -133,23 +144,25 @@ impl RegionTerms {
         })
     }
 
-    /// Returns the posterior of every term. The prior mean of skin (`true`), which has one term, is [`Self::prior`];
+    /// Returns the posterior of every term. The prior mean of skin (no region), which has one term, is [`Self::prior`];
     /// that of other regions is the posterior of skin.
     fn revised(
         &self,
         regression: &Regression,
         regions: &[u8],
-        revised: impl Fn(Measurement, SpecularTerm, bool) -> SpecularTerm,
+        revised: impl Fn(Measurement, SpecularTerm, Option<u8>) -> SpecularTerm,
     ) -> Self {
         let measured = |current: SpecularTerm, within: &dyn Fn(u8) -> bool| Measurement {
             current,
             sums: regression.sums(|texel| within(regions[texel]), 0..CHANNELS),
         };
         let is_skin = |region: u8| self.skin.contains(&region);
-        let skin = revised(measured(self.of_skin(), &is_skin), self.prior, true);
+        let skin = revised(measured(self.of_skin(), &is_skin), self.prior, None);
         let of = |region: u8| match is_skin(region) {
             true => skin,
-            false => revised(measured(self.of(region), &|other| other == region), skin, false),
+            false => {
+                revised(measured(self.of(region), &|other| other == region), skin, Some(region))
+            }
         };
         Self { regions: (0..=u8::MAX).map(of).collect(), ..self.clone() }
     }
@@ -172,22 +185,25 @@ struct Measurement {
 }
 
 impl Measurement {
-    /// The posterior mean of the reflectance. The errors of the measurement are those of the regression, a relative
-    /// `model_error`, and a `floor` relative to the prior mean. The prior has a relative standard `deviation`.
+    /// The posterior mean and standard deviation of the reflectance. The errors of the measurement are those of the
+    /// regression, a relative `model_error`, and a `floor` relative to the prior mean. The prior has a relative standard
+    /// `deviation`.
     fn reflectance(
         &self,
         prior: SpecularTerm,
         model_error: f32,
         floor: f32,
         deviation: f32,
-    ) -> f32 {
-        let Some((slope, error)) = self.sums.slope() else { return prior.reflectance };
+    ) -> (f64, f64) {
+        let prior = f64::from(prior.reflectance);
+        let deviation = f64::from(deviation) * prior;
+        let Some((slope, error)) = self.sums.slope() else { return (prior, deviation) };
         let current = f64::from(self.current.reflectance);
         let measured = current * slope.max(0.0);
-        let prior = f64::from(prior.reflectance);
         let error = (current * error).hypot(f64::from(model_error) * measured);
         let error = error.hypot(f64::from(floor) * prior);
-        posterior((measured, error), (prior, f64::from(deviation) * prior)) as f32
+        let both = deviation * error / deviation.hypot(error);
+        (posterior((measured, error), (prior, deviation)), both)
     }
 
     /// The posterior of the roughness, whose logarithm has these errors.
@@ -204,6 +220,22 @@ impl Measurement {
 /// Largest step of the logarithm of the roughness, beyond which the linear model does not hold.
 const LARGEST_STEP: f64 = 0.3;
 
+/// Intervals of the integral of [`mean_below`].
+const INTERVALS: usize = 64;
+
+/// The mean, below a `limit` and above 0, of a normal distribution; its own mean if both are far.
+fn mean_below(limit: f64, (mean, deviation): (f64, f64)) -> f64 {
+    if limit >= mean + 3.0 * deviation {
+        return mean;
+    }
+    let sums = (0..INTERVALS).fold([0.0; 2], |[density, moment], i| {
+        let value = limit * (i as f64 + 0.5) / INTERVALS as f64;
+        let at = (-0.5 * ((value - mean) / deviation).powi(2)).exp();
+        [density + at, moment + at * value]
+    });
+    if sums[0] > 0.0 { sums[1] / sums[0] } else { limit }
+}
+
 /// The posterior mean of a measurement and a prior with their standard deviations.
 fn posterior((measured, error): (f64, f64), (prior, deviation): (f64, f64)) -> f64 {
     let weight = deviation * deviation / (deviation * deviation + error * error);
@@ -217,6 +249,7 @@ mod tests {
     use crate::unshade::tint::tests::scene;
 
     const SKIN: f32 = 0.028;
+    const NO_LIMITS: [f32; 256] = [f32::INFINITY; 256];
 
     fn everywhere(reflectance: f32) -> RegionTerms {
         RegionTerms::prior(reflectance, &[1], &[])
@@ -240,7 +273,8 @@ mod tests {
         let rows = |i: usize| [predicted[i], [0.0; CHANNELS]];
         let regression = Regression::new(&samples, &samples.weight, rows, observed);
         let config = UnshadeConfig::default().reflectance;
-        let all = everywhere(SKIN).with_reflectance(&config, 0.0, &regression, &regions);
+        let all =
+            everywhere(SKIN).with_reflectance(&config, 0.0, &regression, &regions, &NO_LIMITS);
         [1, 2].map(|region| all.of(region).reflectance)
     }
 
@@ -271,6 +305,28 @@ mod tests {
         let [skin, hair] = found([1.0, -0.5]);
         assert!((skin / SKIN - 1.0).abs() < 1e-4, "{skin}");
         assert!((hair / ((1.0 - weight(0.0)) * SKIN) - 1.0).abs() < 0.1, "{hair}");
+    }
+
+    /// Without a measurement, the mean of the prior's part below the limit, by the closed form of a truncated normal.
+    #[test]
+    fn an_albedo_below_zero_excludes_a_reflectance() {
+        let (samples, predicted) = scene();
+        let texels = samples.taps.size() * samples.taps.size();
+        let rows = |i: usize| [predicted[i], [0.0; CHANNELS]];
+        let regression = Regression::new(&samples, &samples.weight, rows, |_| [1.0; CHANNELS]);
+        let config = UnshadeConfig::default().reflectance;
+        let found = |limit: f32| {
+            let limits = [limit; 256];
+            let regions = vec![1; texels];
+            let all =
+                everywhere(SKIN).with_reflectance(&config, 1.0, &regression, &regions, &limits);
+            assert_eq!(all.of(1).reflectance, all.of_skin().reflectance, "skin has no limit");
+            all.of(2).reflectance / all.of(1).reflectance
+        };
+        assert_eq!(found(10.0), 1.0);
+        // Between -2 and 0 standard deviations of 0.5: 1 - 0.5 (phi(0) - phi(-2)) / (Phi(0) - Phi(-2)).
+        assert!((found(1.0) - (1.0 - 0.5 * (0.398942 - 0.053991) / (0.5 - 0.022750))).abs() < 2e-3);
+        assert!((found(0.01) - 0.005).abs() < 1e-3);
     }
 
     #[test]

@@ -24,6 +24,7 @@
       const title = pane.is_truth ? "the capture's light" : "as recovered by " + pane.title;
       found.push({ id: pane.id, title, read: read(pane.light) });
     }
+    scene.lights.forEach(([name, light], i) => found.push({ id: "light" + i, title: name, read: read(light) }));
     found.push({ id: "even", title: "uniform", read: async () => view.EVEN });
     return found;
   };
