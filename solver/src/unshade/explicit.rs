@@ -19,6 +19,9 @@ use crate::transport::{CHANNELS, GREEN, Reflection, SpecularTerm, Transport, lig
 /// Least error of the model, radiance.
 const LEAST_ERROR: f32 = 1e-5;
 
+/// The share of a region's samples that highlights may exceed: those in shadows that the mesh does not have.
+const DARKEST: f32 = 0.1;
+
 /// The model on the transport's texture.
 pub(super) struct ExplicitModel<'a> {
     config: &'a LightConfig,
@@ -118,27 +121,30 @@ impl<'a> ExplicitModel<'a> {
         Regression::new(&self.samples, &weight, rows, observed)
     }
 
-    /// The factors on the highlights of each region at which they alone explain its mean picture. `weight` has the
-    /// weights of the model's samples, `regions` the region of every texel.
+    /// The factors on the highlights of each region at which they alone explain its [`DARKEST`] samples. `weight` has
+    /// the weights of the model's samples, `regions` the region of every texel.
     pub(super) fn highlight_limits(
         &self,
         light: &[f32],
         weight: &Planes,
         regions: &[u8],
     ) -> [f32; 256] {
-        let predicted = self.reflection.radiance(light);
-        let mut sums = [[[0.0_f64; 2]; CHANNELS]; 256];
-        for (i, highlight) in predicted.iter().enumerate() {
+        let mut limits: Vec<Vec<(f32, f32)>> = vec![vec![]; 256];
+        for (i, highlight) in self.reflection.radiance(light).iter().enumerate() {
             let region = usize::from(regions[self.samples.taps.nearest(i)]);
-            for (c, [observed, alone]) in sums[region].iter_mut().enumerate() {
-                *observed += f64::from(weight.get(0, i) * self.samples.target.get(c, i));
-                *alone += f64::from(weight.get(0, i) * highlight[c]);
-            }
+            let limit = (0..CHANNELS).map(|c| self.samples.target.get(c, i) / highlight[c]);
+            let limit = limit.fold(f32::INFINITY, f32::min);
+            limits[region].push((limit, weight.get(0, i)));
         }
-        sums.map(|channels| {
-            let limits = channels.iter().filter(|[_, alone]| *alone > 0.0);
-            let limit = limits.map(|[observed, alone]| observed / alone);
-            limit.fold(f64::INFINITY, f64::min) as f32
+        std::array::from_fn(|region| {
+            let limits = &mut limits[region];
+            limits.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let mut left = DARKEST * limits.iter().map(|(_, weight)| weight).sum::<f32>();
+            let above = limits.iter().find(|(_, weight)| {
+                left -= weight;
+                left < 0.0
+            });
+            above.map_or(f32::INFINITY, |(limit, _)| limit.max(0.0))
         })
     }
 

@@ -96,7 +96,7 @@ impl RegionTerms {
     /// where the model is least accurate.
     ///
     /// Outside of skin the posterior ends at `limits`, the factors on the highlights of each region at which they alone
-    /// explain its mean picture: without contrast in the light, only a positive albedo tells dark hair from a mirror.
+    /// explain its darkest samples: without contrast in the light, only a positive albedo tells dark hair from a mirror.
     #[must_use]
     pub fn with_reflectance(
         &self,
