@@ -164,8 +164,10 @@ def _figure(folder: str) -> dict[str, Any]:
 def _method(name: str, capture: str, out: str, settings: dict[str, Any]) -> dict[str, Any]:
     import unshade
 
-    from .methods import CONTROLLED, method
+    from .methods import CONTROLLED, method, require_still_light
     from .render import llvm
+
+    require_still_light(name, Path(capture))
 
     # A capture without a truth, which passive methods get, does not say what rendered it.
     scene = _rendered(capture) if name in CONTROLLED else None

@@ -31,6 +31,8 @@ class Camera:
     matrix: np.ndarray
     train: bool
     distortion: Distortion | None = None
+    place: int = 0
+    """Its number among the training views, or among the withheld ones."""
 
     def __post_init__(self) -> None:
         if self.distortion is not None and self._reach() is None:

@@ -60,7 +60,7 @@ def main(path):
 
 def pictures(scene, job, light, view):
     """One picture for every seed of the view in this light."""
-    for number, seed in enumerate(view["seeds"][light]):
+    for number, seed in enumerate(view["seeds"].get(light, [])):
         scene.cycles.seed = seed
         scene.render.filepath = str(Path(job["out"]) / light / f"{view['name']}-{number}.exr")
         bpy.ops.render.render(write_still=True)

@@ -93,7 +93,7 @@ def write_light(folder: Path, name: str, light: AnyLight) -> dict[str, Any]:
     if isinstance(light, Dome):
         said["background"] = {"radiance": [light.radiance] * 3}
     elif isinstance(light, Environment):
-        said["background"] = _picture(folder / f"{name}.exr", equirectangular(light.picture))
+        said["background"] = _picture(folder / f"{name}.exr", equirectangular(light.latlong()))
     elif isinstance(light, Panels):
         for number, panel in enumerate(light.panels):
             c, r, u = panel.centre, panel.right, panel.up
@@ -104,7 +104,7 @@ def write_light(folder: Path, name: str, light: AnyLight) -> dict[str, Any]:
                 panel.radiance,
             )
     elif isinstance(light, SunSky):
-        said["background"] = _picture(folder / f"{name}.exr", equirectangular(light.sky.picture))
+        said["background"] = _picture(folder / f"{name}.exr", equirectangular(light.sky.latlong()))
         radius = _SUN_METRES * np.tan(np.radians(APERTURE_DEGREES / 2))
         lamp(0, *_disc(light.direction, radius), light.sun)
     elif isinstance(light, Ball):

@@ -18,7 +18,7 @@ from ..render import lights
 from ..render.given_light import GivenLight
 from ..render.meter import Meter, Progress
 from ..render.relight import MAP_FILES, read_maps
-from ..render.rigs import cameras
+from ..render.rigs import cameras, light_of_view
 from ..render.scene_text import scene_text
 from ..scene_file import Scene
 from ..surface import Mesh, Surface
@@ -59,17 +59,23 @@ def relight(
     face = build_head(scene.face)
     chart, raised = face.chart, face.surface
     surface = Surface(Mesh(raised.vertices, raised.normals, raised.uv, raised.triangles.astype(np.int64)), chart_maps)
-    exposed = {light.name: lights.exposed(light, chart.vertices, chart.normals) for light in scene.lights}
-    if given:
-        exposed = {given.light.name: given.model}
+    exposed: dict[str, lights.AnyLight] = {}
+    # Of each view and light, the name of how the light shines on the view.
+    shining: dict[tuple[str, str], str] = {}
+    for light in [given.light] if given else scene.lights:
+        for view in views:
+            own = light_of_view(scene, light, view)
+            name = light.name if own == light else f"{light.name}@{view.name}"
+            shining[view.name, light.name] = name
+            if name not in exposed:
+                exposed[name] = given.model if given else lights.exposed(own, chart.vertices, chart.normals)
     first: dict[float, str] = {}
     for scale, factor in scales.items():
         target = folder.path / scale
         if first.setdefault(factor, scale) != scale:  # the same factor gives the same pictures
             shutil.copytree(folder.path / first[factor], target, dirs_exist_ok=True)
             continue
-        wanted = [(light, view) for light in exposed for view in views]
-        if all((target / light / f"{view.name}.exr").exists() for light, view in wanted):
+        if all((target / light / f"{view}.exr").exists() for view, light in shining):
             continue
         # Beside the pictures, so that an interrupted call leaves nothing elsewhere.
         work = folder.path / "cycles-work"
@@ -81,7 +87,14 @@ def relight(
             meshes=description.write_meshes(work, replace(surface, maps=scaled), face.parts),
             lights=[description.write_light(work, name, light) for name, light in exposed.items()],
             views=[
-                description.view(view, {light: seeds(render.seed, seed_offset, light, view.name) for light in exposed})
+                description.view(
+                    view,
+                    {
+                        name: seeds(render.seed, seed_offset, light, view.name)
+                        for (of_view, light), name in shining.items()
+                        if of_view == view.name
+                    },
+                )
                 for view in views
             ],
             samples=samples_each(render.samples),
@@ -96,7 +109,7 @@ def relight(
             if event["number"] == PASSES - 1:
                 light, view = event["light"], event["view"]
                 layers = read_layers(raw / light, view)
-                write_exr(target / light / f"{view}.exr", {"": layers.total, **layers.channels()})
+                write_exr(target / light.split("@")[0] / f"{view}.exr", {"": layers.total, **layers.channels()})
 
         interpreter.run(job, keep)
         shutil.rmtree(work)

@@ -18,7 +18,7 @@ from ..render import lights
 from ..render.layers import Layers
 from ..render.passes import render_layers, seed_of
 from ..render.probes import view_through_centres
-from ..render.rigs import cameras
+from ..render.rigs import cameras, light_of_view
 from ..render.scene import HeadScene
 from ..render.truth_scene import captured_scene
 from ..scene_file import Light
@@ -69,9 +69,11 @@ def setting_of(capture: Path | None, surface: Surface) -> Setting:
     if (capture / "truth" / "scene.toml").is_file():
         scene = captured_scene(capture)
         face = build_head(scene.face)
-        exposed = {light.name: lights.exposed(light, face.chart.vertices, face.chart.normals) for light in scene.lights}
         views = cameras(scene.rig, scene.render.width, scene.render.height)
-        return Setting(face.parts, exposed, next((v for v in views if not v.train), views[0]), scene.render.depth)
+        view = next((v for v in views if not v.train), views[0])
+        shining = {light.name: light_of_view(scene, light, view) for light in scene.lights}
+        exposed = {name: lights.exposed(light, face.chart.vertices, face.chart.normals) for name, light in shining.items()}
+        return Setting(face.parts, exposed, view, scene.render.depth)
     stated = _native.Capture(capture)
     name = [*stated.withheld, *stated.train][0]
     view = stated.camera(name)

@@ -158,7 +158,7 @@ def _camera(camera: Camera) -> dict[str, Any]:
 def _light(light: AnyLight, textures: Path) -> dict[str, Any]:
     emitters = light.emitters()
     if isinstance(light, (Environment, SunSky)):
-        sky = light.sky.picture if isinstance(light, SunSky) else light.picture
+        sky = light.sky.latlong() if isinstance(light, SunSky) else light.latlong()
         write_exr(textures / "environment.exr", {"": sky})
         emitters["environment"] = {"type": "envmap", "filename": "textures/environment.exr"}
     return emitters

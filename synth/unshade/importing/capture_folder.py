@@ -11,6 +11,7 @@ import numpy as np
 from .. import _native
 from ..files.folder import ResumableFolder
 from ..files.pictures import make_folder, write_bytes, write_gray, write_json
+from ..stated_light import LIGHT_FRAMES
 from .chart_mesh import ChartMesh
 from .photographs import ImportedView
 
@@ -32,8 +33,8 @@ class CaptureWriter:
     def mesh(self, mesh: ChartMesh) -> None:
         write_bytes(self._path / "mesh.obj", mesh.text())
 
-    def view(self, taken: ImportedView, *, withheld: bool) -> None:
-        """Writes one view with its mask; a camera keeps its lens only if ``transforms.json`` can state it."""
+    def view(self, taken: ImportedView, *, withheld: bool, light: str | None) -> None:
+        """Writes one view with its mask and the name of its light, if it has one; a camera keeps its lens only if ``transforms.json`` can state it."""
         name, camera = taken.name, taken.camera
         image = f"images/{name}.exr"
         frame: dict[str, Any] = {
@@ -50,6 +51,8 @@ class CaptureWriter:
             **taken.lens.terms,
             "transform_matrix": camera.camera_to_world.tolist(),
         }
+        if light is not None:
+            frame["light"] = light
         if taken.labels is not None:
             frame["label_path"] = f"labels/{name}.png"
             self._labelled = True
@@ -64,14 +67,17 @@ class CaptureWriter:
         make_folder(self._path / "images")
         _native.write_colour(self._path / image, taken.radiance)
 
-    def transforms(self, labels: Sequence[tuple[str, int]]) -> None:
-        """Writes the cameras; ``labels`` are the names and ids of label pictures."""
+    def transforms(self, labels: Sequence[tuple[str, int]], light_frame: str) -> None:
+        """Writes the cameras; ``labels`` are the names and ids of label pictures, ``light_frame`` is what the light
+        stands still with."""
         document: dict[str, Any] = {
             "mesh": "mesh.obj",
             "frames": self._frames,
             "train_filenames": self._train,
             "test_filenames": self._test,
         }
+        if light_frame != LIGHT_FRAMES[0]:
+            document["light_frame"] = light_frame
         if self._labelled:
             document["label_names"] = {str(number): name for name, number in labels}
         write_json(self._path / "transforms.json", document)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import CaptureError
+from ..stated_light import LIGHT_FRAMES
 from .pictures import check_curve
 from .placement import PLACES, UNITS
 
@@ -37,12 +38,15 @@ class Choices:
     apply: bool = False
     skip_missing: bool = False
     leave_out: tuple[str, ...] = ()
+    light_frame: str | None = None
 
     def check(self) -> None:
         """Refuses values out of range. Raises `CaptureError` or `PictureError`."""
         check_curve(self.curve)
         if self.unit is not None and self.unit not in UNITS:
             raise CaptureError(f"unit {self.unit!r} is unknown; there are {', '.join(UNITS)}")
+        if self.light_frame is not None and self.light_frame not in LIGHT_FRAMES:
+            raise CaptureError(f"light_frame {self.light_frame!r} is unknown; there are {', '.join(LIGHT_FRAMES)}")
         if self.place not in PLACES:
             raise CaptureError(f"place {self.place!r} is unknown; there are {', '.join(PLACES)}")
         for name, value, maximum in (("brackets", self.brackets, 32), ("shrink", self.shrink, 64)):

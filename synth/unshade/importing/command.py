@@ -9,6 +9,7 @@ import warnings
 from pathlib import Path
 
 from ..errors import UnshadeError
+from ..stated_light import LIGHT_FRAMES
 from .capture_folder import RECORD
 from .importer import FORMATS, import_capture
 from .parser_labels import PARSERS
@@ -96,6 +97,11 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument(
         "--leave-out", type=_names, default=[], metavar="NAMES", help="leave out the named views: 003,cam1/0002.jpg"
+    )
+    parser.add_argument(
+        "--light-frame",
+        choices=LIGHT_FRAMES,
+        help="what the light stands still with: the head, or the camera (a turning head, a lamp on the camera)",
     )
     return parser
 

@@ -71,6 +71,7 @@ def import_capture(
     apply: bool = False,
     skip_missing: bool = False,
     leave_out: Sequence[str] = (),
+    light_frame: str | None = None,
     progress: Progress | None = None,
 ) -> Path:
     """Bring a capture of ``format`` (``transforms``, ``colmap``, ``metashape``, ``emily``) at ``path`` into the
@@ -88,7 +89,9 @@ def import_capture(
     source's; ``place`` is ``auto``, ``keep`` or ``cameras`` (upright by the cameras), ``front`` the name of a
     view that looks at the face, where cameras stand all round. If one change of a
     convention makes masks and mesh fit, ``apply`` makes it; without it that change is the error. ``skip_missing``
-    leaves out views whose photograph or mask is missing, ``leave_out`` those named.
+    leaves out views whose photograph or mask is missing, ``leave_out`` those named. ``light_frame`` is ``camera`` if the
+    light stands still with respect to the camera (a head that turns in a room, or a lamp on the camera), by default what
+    the file states, else ``head``.
 
     Raises `CaptureError`, `PictureError` or `StorageError`.
     """
@@ -106,6 +109,7 @@ def import_capture(
         leave_out=tuple(leave_out),
         parser=parser, curve=curve, brackets=brackets, even_exposure=even_exposure, shrink=shrink, unit=unit, place=place,
         front=front, apply=apply, skip_missing=skip_missing,
+        light_frame=light_frame,
     )  # fmt: skip
     choices.check()
     source = read_source(format, Path(path), choices.pictures)
@@ -142,6 +146,7 @@ class _Import:
         if self.mesh_file is not None:
             self.mesh = read_mesh(self.mesh_file, choices.objects or source.objects)
             self._check_layout()
+        self.light_frame = choices.light_frame or source.light_frame
         self.source = self._with_files(source)
         self.withheld = withheld_views(self.source, choices.holdout)
         for words in left_out_by_reason(self.source):
@@ -212,13 +217,14 @@ class _Import:
             taken = self._finished(taken, mesh)
             if view.name in examined:
                 lit.append(LitView.of(taken))
-            folder.view(taken, withheld=view.name in self.withheld)
+            folder.view(taken, withheld=view.name in self.withheld, light=view.light)
         self._judge(report)
         self.notes |= report.notes(even=reading.reference is not None)
         self.light = light_motion(mesh, lit)
-        if self.light is not None and self.light.warning is not None:
-            self._warn(self.light.warning)
-        folder.transforms(sorted({*LABELS.items()}, key=lambda item: item[1]))
+        warning = None if self.light is None else self.light.warning(self.light_frame)
+        if warning is not None:
+            self._warn(warning)
+        folder.transforms(sorted({*LABELS.items()}, key=lambda item: item[1]), self.light_frame)
         folder.record(self._record(reading, verdict, placement, report))
         folder.commit()
         self.progress(len(self.source.views), len(self.source.views), "capture")

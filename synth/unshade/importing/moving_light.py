@@ -91,21 +91,29 @@ class LightMotion:
         """Whether views differ more than by their light: photographs are not where their cameras and the mesh are."""
         return self.own_lights > _DISAGREES
 
-    @property
-    def warning(self) -> str | None:
-        """The fault in a sentence; None without one."""
+    def warning(self, light_frame: str) -> str | None:
+        """The fault in a sentence; None without one. ``light_frame`` is what the light is said to stand still with."""
         if self.disagrees:
             return (
                 f"one place of the mesh differs by {self.own_lights:.0%} between views whatever their light, so "
                 "photographs do not belong to their cameras or to the mesh; look at the order of files, at photographs "
                 "that are turned or mirrored, and at the mesh over the photographs"
             )
-        if self.moves:
+        spread = (
+            f"one place differs by {self.one_light:.0%} between views, and by {self.own_lights:.0%} if each has a light "
+            "of its own"
+        )
+        if self.moves and light_frame == "head":
             return (
-                f"the light moves with respect to the head, as on a turntable or with a flash on the camera: one place "
-                f"differs by {self.one_light:.0%} between views, and by {self.own_lights:.0%} if each has a light of "
-                "its own; a solve assumes one light, so move the camera and leave head and lights where they are "
-                "(or look at photographs that lie another way than their cameras)"
+                f"the light moves with respect to the head, as on a turntable or with a flash on the camera: {spread}; "
+                "if lamps and camera stood still while the head turned, or the lamp is on the camera, import with "
+                "light_frame camera (--light-frame camera); else move the camera and leave head and lights where they "
+                "are (or look at photographs that lie another way than their cameras)"
+            )
+        if light_frame == "camera" and not self.moves:
+            return (
+                f"light_frame is camera, but the light seems to stand still with respect to the head: {spread}; import "
+                "without it if head and lights stood still while the camera moved"
             )
         return None
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from ..errors import CaptureError
+from ..stated_light import LIGHT_FRAMES
 
 Matrix = NDArray[np.float64]
 
@@ -71,7 +72,8 @@ class SourceView:
 
     ``focal`` and ``centre`` are in pixels, the top left corner of the picture is (0, 0) and pixel
     centres lie at +.5; ``camera_to_world`` has OpenGL axes and is rigid. ``width`` and ``height`` are
-    None where the file does not state them; then they are the picture's. ``stated`` is what the file calls
+    None where the file does not state them; then they are the picture's. ``light`` names the light, if views have
+    different ones. ``stated`` is what the file calls
     the camera, for messages.
     """
 
@@ -85,6 +87,7 @@ class SourceView:
     lens: Lens = field(default_factory=Lens)
     mask: Path | None = None
     label: Path | None = None
+    light: str | None = None
     stated: str = ""
 
 
@@ -100,6 +103,7 @@ class Source:
     ``whole_folders``: whether the program was given every photograph of a folder.
     ``elsewhere`` is where the cameras would be if the mesh lies in the other of two coordinate systems
     that the file speaks of: a name, what it would mean, and the similarity of the cameras' world.
+    ``light_frame`` is what the light stands still with.
     """
 
     origin: Path
@@ -114,6 +118,7 @@ class Source:
     assumed: tuple[str, ...] = ()
     left_out: tuple[tuple[str, str], ...] = ()
     whole_folders: bool = False
+    light_frame: str = LIGHT_FRAMES[0]
 
     def __post_init__(self) -> None:
         if not self.views:

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import CaptureError
+from ..stated_light import light_frame_of
 from .source import FieldOfView, Lens, Matrix, Source, SourceView, frame_names, moved, rigid
 
 _MODELS = {
@@ -72,6 +73,7 @@ def read_transforms(path: Path) -> Source:
         withheld=tuple(withheld),
         elsewhere=elsewhere,
         label_names=_label_names(first.path, first.document.get("label_names")),
+        light_frame=light_frame_of(first.path, first.document),
         assumed=_not_read(first.path, parts),
     )
 
@@ -180,6 +182,7 @@ def _view(path: Path, document: Mapping[str, Any], frame: Mapping[str, Any], nam
         lens=_lens(path, name, document, frame, value),
         mask=_beside(path, mask) if isinstance(mask, str) else None,
         label=_beside(path, label) if isinstance(label, str) else None,
+        light=None if frame.get("light") is None else _text(path, frame, "light"),
     )
 
 

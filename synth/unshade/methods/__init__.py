@@ -9,15 +9,25 @@ from __future__ import annotations
 from collections.abc import Callable
 from importlib import import_module
 from inspect import signature
+from pathlib import Path
 from typing import Any
 
 from ..errors import SolveError
+from ..stated_light import stated_light
 
 PASSIVE = {"sh-lambert": "sh_lambert", "path-traced": "path_traced"}
 """Name to module, whose ``recover(capture, **settings)`` returns `Maps` and the light, as `Maps.write` takes both."""
 
 CONTROLLED = {"binary-patterns": "binary_patterns", "flash-only": "flash_only", "light-stage": "light_stage"}
 """Name to module, whose ``recover(capture, laboratory, **settings)`` returns `Maps`."""
+
+
+def require_still_light(name: str, capture: Path) -> None:
+    """Raises `SolveError` if the passive method ``name`` cannot use the capture's light. Controlled methods photograph
+    the face in lights of their own."""
+    fault = stated_light(capture).fault
+    if name in PASSIVE and fault is not None:
+        raise SolveError(f"{fault}, but {name} assumes one light that stands still; use unshade")
 
 
 def method(name: str, settings: dict[str, Any]) -> Callable[..., Any]:

@@ -33,7 +33,7 @@ from .llvm import Choice
 from .meter import Meter, Progress
 from .passes import seed_of
 from .probes import TexelVisibility, nearest_texels, view_through_centres
-from .rigs import cameras
+from .rigs import cameras, light_of_view
 from .scene import ChartMaps
 from .scene_text import scene_text, with_own_files
 from .shots import Shots
@@ -62,7 +62,7 @@ class Capture:
             render=replace(scene.render, variant=choice.variant),
             versions=versions(choice),
         )
-        files = [light.path for light in scene.lights if light.path]
+        files = [light.path for light in scene.single_lights if light.path]
         files += scene.face.files().values() if isinstance(scene.face, HeadFiles) else []
         contents = [content_hash(Path(path)) for path in files]
         self.folder = ResumableFolder(out, f"{scene_text(self.stated)}\n{fingerprint(__name__)}\n{contents}")
@@ -100,6 +100,8 @@ class Capture:
         if spec != CapturedMesh():
             write_json(self.truth / "captured_mesh.json", deviation(perfect, mesh))
         frames = [formation.stated_frame(camera, self.scene, mesh) for camera in self.cameras]
+        if self.scene.light.lights:
+            frames = [frame | {"light": self._own(camera).name} for frame, camera in zip(frames, self.cameras)]
         document = {
             "camera_model": formation.camera_model(self.scene),
             "mesh": "mesh.obj",
@@ -107,6 +109,8 @@ class Capture:
             "train_filenames": [f["file_path"] for f, c in zip(frames, self.cameras) if c.train],
             "test_filenames": [f["file_path"] for f, c in zip(frames, self.cameras) if not c.train],
         }
+        if self.scene.rig.light_frame != "head":
+            document["light_frame"] = self.scene.rig.light_frame
         if not self.scene.labels.omit:
             document["label_names"] = {int(label): label.name.lower() for label in Label if label}
         write_json(self.path / "transforms.json", document)
@@ -126,15 +130,17 @@ class Capture:
             )
         else:
             keep(face.spec, self.truth / _HEAD)
-        for light in self.scene.lights:
+        for light in self.scene.single_lights:
             if light.path:
                 picture = read_rgb(light.path).clip(0)
                 write_exr(self.truth / _ENVIRONMENTS / f"{light.name}.exr", {"": picture})
 
     def _write_views(self, face: Face, shots: Shots) -> None:
-        own = self.scene.light
-        write_exr(self.truth / "light.exr", {"": shots.light(own).latlong()})
-        for camera in self.cameras:
+        for light in self.scene.light.groups:
+            file = f"light/{light.name}.exr" if self.scene.light.lights else "light.exr"
+            write_exr(self.truth / file, {"": shots.light(light).latlong()})
+        # Views in one light follow each other, since they share its acceleration structure.
+        for camera in sorted(self.cameras, key=lambda camera: self._own(camera).name):
             name = camera.name
             report = self.meter.begin(f"view {name}")
             image = self.path / "images" / f"{name}.exr"
@@ -146,10 +152,10 @@ class Capture:
             stated = formation.stated_labels(labels.astype(np.uint8), camera, self.scene)
             if stated is not None:
                 write_gray(self.path / "labels" / f"{name}.png", stated)
-            layers = self._layers(shots, own, camera, report)
+            layers = self._layers(shots, self.scene.light, camera, report)
             write_exr(self.truth / "layers" / f"{name}.exr", layers.channels())
             if not camera.train:
-                self._write_true(own, camera, layers)
+                self._write_true(self.scene.light, camera, layers)
             # Last, since it marks the view as finished.
             write_exr(image, {"": self._photograph(shots, camera, layers)})
 
@@ -162,7 +168,7 @@ class Capture:
         if lens is not None:
             report = self.meter.begin(f"view {camera.name} through its lens")
             shared = seed_of("photograph", self.scene.render.seed)
-            taken = shots.layers(self.scene.light, self.real[camera.name], seed, shared, report, lens)
+            taken = shots.layers(self._own(camera), self.real[camera.name], seed, shared, report, lens)
         return formation.expose(taken.total, self.scene.formation, seed)
 
     def _write_relit(self, shots: Shots, light: Light) -> None:
@@ -177,8 +183,12 @@ class Capture:
         write_exr(self._relit_path(light, camera), {"": layers.total, **layers.channels()})
 
     def _layers(self, shots: Shots, light: Light, camera: Camera, report) -> Layers:
-        seed = self.scene.render.seed
+        seed, light = self.scene.render.seed, light_of_view(self.scene, light, camera)
         return shots.layers(light, camera, seed_of("truth", seed, light.name, camera.name), seed, report)
+
+    def _own(self, camera: Camera) -> Light:
+        """The light of a view's own picture."""
+        return light_of_view(self.scene, self.scene.light, camera)
 
     def _relit_path(self, light: Light, camera: Camera) -> Path:
         return self.truth / "relit" / light.name / f"{camera.name}.exr"

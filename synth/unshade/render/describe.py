@@ -86,8 +86,8 @@ def _cameras(views: list[Camera]) -> list[str]:
 
 def _lights(scene: Scene, face: Face) -> list[str]:
     rows = [("light", "use", "kind", "mean radiance", "maximum", "max/mean", "colour R:G:B", "CCT", "most on face")]
-    for light in scene.lights:
-        use = "capture" if light is scene.light else "relit"
+    for light in scene.single_lights:
+        use = "capture" if light in scene.light.groups else "relit"
         rows.append((light.name, use, light.kind, *_light(light, face)))
     return _table(rows)
 

@@ -31,7 +31,7 @@ from .layers import Layers
 from .meter import Meter, Progress
 from .passes import seed_of
 from .relight import MAP_FILES, read_maps
-from .rigs import cameras
+from .rigs import cameras, light_of_view
 from .scene import ChartMaps
 from .scene_text import scene_text
 from .shots import Shots
@@ -87,6 +87,7 @@ def write_budget(
     chosen_light = _named(scene.lights, light or scene.light.name, "light")
     withheld = [camera for camera in cameras(scene.rig, scene.render.width, scene.render.height) if not camera.train]
     camera = _named(withheld, view or withheld[0].name, "withheld view")
+    shining = light_of_view(scene, chosen_light, camera)
     truth, found = read_maps(capture / "truth", warn), read_maps(maps, warn)
     found = replace(found, diffuse_albedo=found.diffuse_albedo * np.float32(factor))
     hashes = [content_hash(folder / f"{name}.exr") for folder in (capture / "truth", maps) for name in MAP_FILES]
@@ -108,9 +109,9 @@ def write_budget(
             continue
         shots = Shots(face, mixed(truth, found, mix), scene.render, ArrayStore.of_user())
         # The light's exposure is the face's, whatever its maps.
-        model = model or shots.light(chosen_light)
-        shots.set_light(chosen_light.name, model)
-        pictures[frozenset(mix)] = shots.layers(chosen_light, camera, *seeds, report)
+        model = model or shots.light(replace(shining, to_head=None))
+        shots.set_light(shining.name, model)
+        pictures[frozenset(mix)] = shots.layers(shining, camera, *seeds, report)
     mask = read_gray(capture / "masks" / f"{camera.name}.png") > 127
     inside = binary_erosion(mask, np.ones((_EROSION, _EROSION)))
     halves = {mix: _halves(layers) for mix, layers in pictures.items()}

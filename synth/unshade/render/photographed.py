@@ -4,7 +4,7 @@ light that the method found and in others."""
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -22,10 +22,12 @@ from ..fingerprint import fingerprint
 from ..formation.lens import opaque
 from ..scene_file import Light, Render, read_table
 from ..scene_file.light import parse_light
+from ..stated_light import stated_light
 from .given_light import GivenLight
 from .lights.found import found_light
 from .meter import Meter, Progress
 from .relight import MAP_FILES, read_maps, write_relit
+from .rigs import moving_with
 from .shots import Shots
 
 FOUND = "found"
@@ -103,7 +105,13 @@ def relight_photographed(
     views = [_view(capture.camera(name), name) for name in capture.withheld]
     first = views[0][0]
     meter = Meter(progress, len(scales) * len(lights) * len(views), first.width * first.height * render.samples)
-    write_relit(target, shots, views, lights, scales, seed_offset, meter)
+    moves = stated_light(folder).frame == "camera"
+    jobs = [
+        (light, moving_with(camera, light) if moves and light.name == FOUND else light, camera, lens)
+        for light in lights
+        for camera, lens in views
+    ]
+    write_relit(target, shots, jobs, scales, seed_offset, meter)
 
 
 def _view(stated: Mapping[str, Any], name: str) -> tuple[Camera, Pinhole]:

@@ -21,7 +21,7 @@ from ..scene_file import Light, Scene
 from .given_light import GivenLight
 from .meter import Meter, Progress
 from .passes import seed_of
-from .rigs import cameras
+from .rigs import cameras, light_of_view
 from .scene import ChartMaps
 from .scene_text import scene_text
 from .shots import Shots
@@ -66,23 +66,23 @@ def relight(
     shots = Shots(build_head(scene.face), chart_maps, render, ArrayStore.of_user())
     if given:
         shots.set_light(given.light.name, given.model)
-    write_relit(folder, shots, [(view, None) for view in views], lights, scales, seed_offset, meter)
+    jobs = [(light, light_of_view(scene, light, view), view, None) for light in lights for view in views]
+    write_relit(folder, shots, jobs, scales, seed_offset, meter)
 
 
 def write_relit(
     folder: ResumableFolder,
     shots: Shots,
-    views: Sequence[tuple[Camera, Any]],
-    lights: Sequence[Light],
+    jobs: Sequence[tuple[Light, Light, Camera, Any]],
     scales: Mapping[str, float],
     seed_offset: int,
     meter: Meter,
 ) -> None:
-    """Writes ``<scale>/<light>/<view>.exr`` for each of the cameras, which come with their lenses, and the folder's
-    ``relit.json``; then commits the folder. Pictures that are there already are kept."""
+    """Writes ``<scale>/<light>/<view>.exr`` for each job and the folder's ``relit.json``; then commits the folder. A job
+    is a light, how that shines on the view, the camera, and its lens. Pictures that are there already are kept."""
     albedo, render = shots.maps.diffuse_albedo, shots.render
     current = None
-    for scale, light, (camera, lens) in itertools.product(scales, lights, views):
+    for scale, (light, shining, camera, lens) in itertools.product(scales, jobs):
         report = meter.begin(f"view {camera.name} in {light.name}, scale {scale}")
         path = folder.path / scale / light.name / f"{camera.name}.exr"
         if path.exists():
@@ -95,8 +95,8 @@ def write_relit(
         if scale != current:
             shots.set_diffuse_albedo(albedo * np.float32(scales[scale]))
             current = scale
-        seeds = (seed_of("relit", render.seed, seed_offset, light.name, name) for name in (camera.name, "shared"))
-        layers = shots.layers(light, camera, *seeds, report, lens)
+        seeds = (seed_of("relit", render.seed, seed_offset, shining.name, name) for name in (camera.name, "shared"))
+        layers = shots.layers(shining, camera, *seeds, report, lens)
         write_exr(path, {"": layers.total, **layers.channels()})
     document = {"scales": dict(scales), "samples": render.samples, "seed": render.seed, "seed_offset": seed_offset}
     write_json(folder.path / "relit.json", document)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
 from ..camera.camera import Camera, look_at
-from ..scene_file import Rig
+from ..scene_file import Light, Rig, Scene
 from ..vectors import away
 
 
@@ -26,7 +27,26 @@ def cameras(rig: Rig, width: int, height: int) -> list[Camera]:
         )
         for name, (position, target, focal, train) in zip(rig.view_names(), poses, strict=True)
     ]
-    return sorted(views, key=lambda view: not view.train)
+    groups = ([view for view in views if view.train == train] for train in (True, False))
+    return [replace(view, place=place) for group in groups for place, view in enumerate(group)]
+
+
+def light_of_view(scene: Scene, light: Light, camera: Camera) -> Light:
+    """``light`` as the head has it while ``camera`` takes its picture.
+
+    Of several lights by turns the view has the one of its place; the light of the capture stands where the rig's
+    `light_frame` says. Every other light stands still with respect to the head.
+    """
+    if light != scene.light:
+        return light
+    groups = light.groups
+    own = groups[camera.place % len(groups)]
+    return moving_with(camera, own) if scene.rig.light_frame == "camera" else own
+
+
+def moving_with(camera: Camera, light: Light) -> Light:
+    """A light that stands still in the camera's axes, as the head has it."""
+    return replace(light, to_head=tuple(camera.matrix[:3, :3].ravel().tolist()))
 
 
 FACE_CENTRE = np.array([0.0, 0.0, 0.06])
@@ -103,11 +123,27 @@ def _dome(rig: Rig, width: int, height: int):
     sine = np.sqrt(1 - cosine**2)
     around = turn + _GOLDEN_ANGLE * np.arange(count)
     directions = np.stack([sine * np.cos(around), sine * np.sin(around), cosine], 1)
-    withheld = ((np.arange(rig.test) + 0.5) / max(rig.test, 1) * count).astype(int)
+    withheld = _evenly(rig.test, count)
     training = np.setdiff1d(np.arange(count), withheld)
     focal = _focal(rig, width, height)
     for number in (*training, *withheld):
         yield FACE_CENTRE + rig.distance_metres * directions[number], FACE_CENTRE, focal, number not in withheld
+
+
+def _ring(rig: Rig, width: int, height: int):
+    """Views at even angles about the vertical axis of the head, from its right to its left hand, some of them withheld
+    evenly. A still camera sees the same of a head that turns."""
+    count = rig.train + rig.test
+    azimuths = np.radians(rig.sweep_degrees) * ((np.arange(count) + 0.5) / count - 0.5)
+    withheld = _evenly(rig.test, count)
+    focal = _focal(rig, width, height)
+    for number in (*np.setdiff1d(np.arange(count), withheld), *withheld):
+        yield rig.distance_metres * away(azimuths[number], 0.0), np.zeros(3), focal, number not in withheld
+
+
+def _evenly(chosen: int, count: int) -> np.ndarray:
+    """``chosen`` numbers below ``count`` with even gaps."""
+    return ((np.arange(chosen) + 0.5) / max(chosen, 1) * count).astype(int)
 
 
 def _focal(rig: Rig, width: int, height: int) -> float:
@@ -157,5 +193,5 @@ def _emily(rig: Rig, width: int, height: int):
         yield position + EMILY_OFFSET, target + EMILY_OFFSET, focal, i != _EMILY_WITHHELD
 
 
-_POSES = {"phone": _phone, "emily": _emily, "desktop": _desktop, "dome": _dome}
+_POSES = {"phone": _phone, "emily": _emily, "desktop": _desktop, "dome": _dome, "ring": _ring, "turntable": _ring}
 """Position, target, focal length (pixels) and use of each view of a kind, in order."""

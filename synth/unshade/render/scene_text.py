@@ -36,7 +36,8 @@ def with_own_files(scene: Scene, lights: Path, head: Path) -> Scene:
     of your own head in ``head``."""
 
     def moved(light: Light) -> Light:
-        return replace(light, path=str(lights / f"{light.name}.exr")) if light.path else light
+        path = str(lights / f"{light.name}.exr") if light.path else None
+        return replace(light, path=path, lights=tuple(map(moved, light.lights)))
 
     face = kept(scene.face, head) if isinstance(scene.face, HeadFiles) else scene.face
     return replace(scene, face=face, light=moved(scene.light), relight=tuple(map(moved, scene.relight)))
@@ -49,5 +50,7 @@ def _lines(table: Mapping[str, Any]) -> str:
 def _value(value: Any) -> str:
     if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{key} = {_value(v)}" for key, v in value.items()) + " }"
+    if isinstance(value, list) and value and isinstance(value[0], Mapping):
+        return f"[{', '.join(map(_value, value))}]"
     # Texts (without DEL, which JSON leaves bare), numbers and booleans are spelt alike.
     return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")

@@ -33,7 +33,7 @@ class Shots:
         self.render = render
         self._store = store
         self._models: dict[str, lights.AnyLight | CellSphere] = {}
-        self._lit: dict[str, LitHead] = {}
+        self._lit: dict[Light, LitHead] = {}
         self._shapes_key = content_key(fingerprint(__name__), face.surface, face.parts, render)
         self._maps_key = content_key(maps)
 
@@ -43,6 +43,8 @@ class Shots:
 
     def light(self, light: Light) -> lights.AnyLight | CellSphere:
         """The light, exposed for this face."""
+        if light.to_head is not None:
+            return lights.in_head_axes(self.light(replace(light, to_head=None)), light)
         if light.name not in self._models:
             chart = self._face.chart
             self._models[light.name] = lights.exposed(light, chart.vertices, chart.normals)
@@ -82,12 +84,12 @@ class Shots:
         return kept
 
     def _render_anew(self, light, camera, seed, shared_seed, report, lens) -> Layers:
-        if light.name not in self._lit:
+        if light not in self._lit:
             # One at a time: each has an acceleration structure of its own, gigabytes for relief as geometry.
             self._lit.clear()
-            self._lit[light.name] = self.head.lit(self.light(light))
+            self._lit[light] = self.head.lit(self.light(light))
         sensor = camera.sensor(self.render.samples)
         layers = render_tier(
-            self.head, self._lit[light.name], sensor, self.render, seed, report, lens=lens, shared_seed=shared_seed,
+            self.head, self._lit[light], sensor, self.render, seed, report, lens=lens, shared_seed=shared_seed,
         )  # fmt: skip
         return denoised(layers, self.head, sensor, lens) if self.render.denoise == "oidn" else layers

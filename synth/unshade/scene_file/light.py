@@ -88,6 +88,9 @@ class Pattern:
     inverse: bool = flag(False)
 
 
+TURNS = "turns"
+"""The kind that is several lights: views are taken in each of them by turns."""
+
 SETTINGS: dict[str, type] = {
     "key": KeyLight,
     "two-colour": TwoColours,
@@ -111,7 +114,10 @@ class Light:
 
     ``path``, ``rotation_degrees`` (about +Y, turning +Z towards +X) and ``clamp`` (the
     largest radiance that is kept, in the picture's own units) belong to ``envmap``;
-    ``settings`` to the kinds of `SETTINGS`.
+    ``settings`` to the kinds of `SETTINGS`, ``lights`` to `TURNS`.
+
+    ``to_head`` is the rotation (3 x 3, row by row) to the head's axes from those that the light stands still in; None
+    if they are the head's. No file states it.
     """
 
     name: str
@@ -121,12 +127,21 @@ class Light:
     rotation_degrees: float = 0.0
     clamp: float | None = None
     settings: AnySettings | None = None
+    lights: tuple[Light, ...] = ()
+    to_head: tuple[float, ...] | None = None
 
     def __post_init__(self) -> None:
         if self.settings is None and self.kind in SETTINGS:
             object.__setattr__(self, "settings", SETTINGS[self.kind]())
 
+    @property
+    def groups(self) -> tuple[Light, ...]:
+        """The lights that views are taken in by turns; itself, if it is one light."""
+        return self.lights or (self,)
+
     def to_table(self) -> dict[str, Any]:
+        if self.lights:
+            return {"name": self.name, "kind": self.kind, "lights": [light.to_table() for light in self.lights]}
         table = {"name": self.name, "kind": self.kind, "exposure": self.exposure}
         if self.kind == "envmap":
             table |= {"path": self.path, "rotation_degrees": self.rotation_degrees}
@@ -139,7 +154,9 @@ class Light:
 
 def parse_light(values: Mapping[str, Any], place: str, folder: Path) -> Light:
     table = Table(values, place)
-    kind = table.choice("kind", LIGHT_KINDS)
+    kind = table.choice("kind", (*LIGHT_KINDS, TURNS))
+    if kind == TURNS:
+        return _parse_turns(table, folder)
     own: tuple[str, ...] = ("path", "rotation_degrees", "clamp") if kind == "envmap" else ()
     if kind in SETTINGS:
         own = names(SETTINGS[kind])
@@ -163,6 +180,18 @@ def parse_light(values: Mapping[str, Any], place: str, folder: Path) -> Light:
         clamp=table.number("clamp", above=0.0) if "clamp" in table else None,
         settings=settings,
     )
+
+
+def _parse_turns(table: Table, folder: Path) -> Light:
+    table.require_known(("name", "kind", "lights"))
+    given = table.values.get("lights")
+    if not isinstance(given, list) or len(given) < 2 or not all(isinstance(one, dict) for one in given):
+        raise table.wrong("lights", "must be two lights or more, as lights = [{ name = ..., kind = ... }, ...]")
+    lights = tuple(parse_light(one, f"lights of {table.place}", folder) for one in given)
+    names = [table.folder_name(), *(light.name for light in lights)]
+    if len(set(names)) < len(names) or any(light.lights for light in lights):
+        raise table.wrong("lights", "must be single lights, each with a name of its own")
+    return Light(names[0], TURNS, lights=lights)
 
 
 def _check_pattern(pattern: Pattern, table: Table) -> None:

@@ -16,6 +16,8 @@ _KEYS = {
     "emily": (),
     "desktop": _OPTICS,
     "dome": ("train", "test", "max_angle_degrees", *_OPTICS),
+    "ring": ("train", "test", "sweep_degrees", "distance_metres", "fov_degrees"),
+    "turntable": ("train", "test", "sweep_degrees", "distance_metres", "fov_degrees"),
 }
 """Keys of each kind, as they are written."""
 
@@ -24,6 +26,8 @@ RIG_KINDS = tuple(_KEYS)
 _DEFAULTS: dict[str, dict[str, Any]] = {
     "desktop": {"distance_metres": 0.7, "fov_degrees": 22.0},
     "dome": {"train": 24, "test": 3, "max_angle_degrees": 60.0, "distance_metres": 0.9, "fov_degrees": 17.0},
+    "ring": {"distance_metres": 0.61},
+    "turntable": {"distance_metres": 0.61},
 }
 """Where a kind's defaults differ from those of `Rig`."""
 
@@ -43,6 +47,7 @@ class Rig:
     train: int = integer(10, 1, 900)
     test: int = integer(2, 0, 90)
     max_angle_degrees: float = real(45, above=0)
+    sweep_degrees: float = real(180, 0, 360)
     seed: int = integer(0, 0, 2**63 - 1)
     distance_metres: float = real(0.55, above=0)
     fov_degrees: float = real(25, above=0)
@@ -57,6 +62,11 @@ class Rig:
         if self.withheld is not None:
             table["withheld"] = list(self.withheld)
         return table
+
+    @property
+    def light_frame(self) -> str:
+        """Whether the capture's light stands still with respect to the ``head``, or to the ``camera``."""
+        return "camera" if self.kind == "turntable" else "head"
 
     @property
     def short_side_degrees(self) -> float:

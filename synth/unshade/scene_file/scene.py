@@ -60,6 +60,11 @@ class Scene:
         """The light of the capture, then the others."""
         return (self.light, *self.relight)
 
+    @property
+    def single_lights(self) -> tuple[Light, ...]:
+        """The lights, with those of the capture one by one, each once."""
+        return tuple(dict.fromkeys((*self.light.groups, *self.relight)))
+
 
 def read_scene(path: Path) -> Scene:
     """Opens a resolved scene file. Raises `SceneError` (or `FaceError` for its face)."""
@@ -97,7 +102,10 @@ def parse_scene(values: Mapping[str, Any], place: str, folder: Path) -> Scene:
             parse_light(other, f"[[relight]] number {number} of {place}", folder)
             for number, other in enumerate(others, 1)
         )
-    names = [one.name for one in (light, *relight)]
+    for one in relight:
+        if one.lights:
+            raise SceneError(f"{place}: relight has {one.name!r}, which is several lights; name each", key="relight")
+    names = [light.name, *(one.name for one in dict.fromkeys((*light.lights, *relight)))]
     for one in names:
         if names.count(one) > 1:
             raise SceneError(f"{place}: two lights are named {one!r}; give each its own name")

@@ -1,6 +1,6 @@
 """Lights as plain data: what Mitsuba emits, what falls on a face, what a lat-long shows.
 
-One file per kind; every kind has ``scaled``, ``irradiance`` (RGB [N, 3] at points [N, 3] m
+One file per kind; every kind has ``scaled``, ``turned`` (by a rotation of the world [3, 3]), ``irradiance`` (RGB [N, 3] at points [N, 3] m
 with unit normals), ``brightest`` (its largest radiance, RGB), ``emitters`` and ``latlong``.
 Each light starts with its own relative radiance and is scaled by `exposed`, so that the
 largest unoccluded irradiance (Rec.709 luminance) over the front-facing normals of the
@@ -11,6 +11,7 @@ follow Mitsuba, see `conventions`.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -28,7 +29,7 @@ AnyLight = Dome | Panels | Environment | SunSky | Ball
 
 __all__ = [
     "LATLONG", "LUMINANCE", "AnyLight", "Ball", "Dome", "Environment", "Panel", "Panels", "StagePattern", "SunSky",
-    "environment", "exposed", "flash", "largest_irradiance", "studio", "unexposed",
+    "environment", "exposed", "flash", "in_head_axes", "largest_irradiance", "studio", "unexposed",
 ]  # fmt: skip
 
 _MODELS = {
@@ -55,11 +56,17 @@ def exposed(light: Light, vertices: np.ndarray, normals: np.ndarray) -> AnyLight
     model = unexposed(light)
     if isinstance(model, StagePattern):
         # Part of a sphere that has radiance 1 where it is on: its irradiance is pi already.
-        return model.scaled(light.exposure)
+        return in_head_axes(model.scaled(light.exposure), light)
+    # A light that moves with respect to the head has one exposure: that of a head that faces the camera.
     largest = largest_irradiance(model, vertices, normals)
     if not largest > 0:
         raise SceneError(f"light {light.name!r} does not reach the face's front; turn it or choose another")
-    return model.scaled(light.exposure * math.pi / largest)
+    return in_head_axes(model.scaled(light.exposure * math.pi / largest), light)
+
+
+def in_head_axes(model: Any, light: Light) -> Any:
+    """The model of a light, in the axes in which the light stands still, turned to those of the head."""
+    return model if light.to_head is None else model.turned(np.reshape(light.to_head, (3, 3)))
 
 
 def largest_irradiance(model: AnyLight, vertices: np.ndarray, normals: np.ndarray) -> float:

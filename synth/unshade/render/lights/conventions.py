@@ -37,6 +37,17 @@ def averaged(picture: np.ndarray, row: np.ndarray, fine: int) -> np.ndarray:
     return sums / np.bincount(row)[:, None]
 
 
+def bilinear(picture: np.ndarray, towards: np.ndarray) -> np.ndarray:
+    """Values [..., 3] of a lat-long picture [H, W, 3] in unit directions [..., 3], of its type."""
+    height, width = picture.shape[:2]
+    line = np.arccos(towards[..., 1].clip(-1, 1)) / np.pi * (height - 1)
+    column = np.arctan2(towards[..., 0], -towards[..., 2]) / (2 * np.pi) * width - 0.5
+    top, left = np.floor(line).astype(int).clip(0, height - 2), np.floor(column).astype(int)
+    down, across = (line - top)[..., None], (column - left)[..., None]
+    rows = [picture[row, left % width] * (1 - across) + picture[row, (left + 1) % width] * across for row in (top, top + 1)]
+    return (rows[0] * (1 - down) + rows[1] * down).astype(picture.dtype)
+
+
 def solid_angles(height: int, width: int) -> np.ndarray:
     """Solid angle (sr) of a texel of every row [H]."""
     edges = np.pi * (np.arange(height + 1) - 0.5).clip(0, height - 1) / (height - 1)

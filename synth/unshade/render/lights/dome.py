@@ -22,6 +22,9 @@ class Dome:
     def scaled(self, factor: float) -> Dome:
         return Dome(self.radiance * factor)
 
+    def turned(self, rotation: np.ndarray) -> Dome:
+        return self
+
     def irradiance(self, points: np.ndarray, normals: np.ndarray) -> np.ndarray:
         return np.full((len(points), 3), math.pi * self.radiance)
 

@@ -14,20 +14,26 @@ from ...files.pictures import read_light
 from ...scene_file import Light
 from ...vectors import unit
 from ..split import LambertLight
-from .conventions import LUMINANCE, directions, solid_angles
+from .conventions import LUMINANCE, bilinear, directions, solid_angles
 
 
 @dataclass(frozen=True)
 class Environment:
-    """A lat-long picture [H, W, 3] float32 at infinity."""
+    """A lat-long picture [H, W, 3] float32 at infinity; ``rotation`` [3, 3] takes its axes to the head's."""
 
     picture: np.ndarray
+    rotation: np.ndarray | None = None
     lambert_light = LambertLight.BLEND
 
     def scaled(self, factor: float) -> Environment:
         return replace(self, picture=(self.picture * factor).astype(np.float32))
 
+    def turned(self, rotation: np.ndarray) -> Environment:
+        return replace(self, rotation=rotation if self.rotation is None else rotation @ self.rotation)
+
     def irradiance(self, points: np.ndarray, normals: np.ndarray) -> np.ndarray:
+        if self.rotation is not None:
+            normals = normals @ self.rotation
         towards, energy = self._blocks()
         total = np.zeros((len(normals), 3))
         for start in range(0, len(normals), 4096):
@@ -58,10 +64,17 @@ class Environment:
         return texels[(texels @ LUMINANCE).argmax()]
 
     def emitters(self) -> dict[str, Any]:
-        return {"environment": {"type": "envmap", "bitmap": mi.Bitmap(self.picture)}}
+        emitter: dict[str, Any] = {"type": "envmap", "bitmap": mi.Bitmap(self.picture)}
+        if self.rotation is not None:
+            to_world = np.eye(4)
+            to_world[:3, :3] = self.rotation
+            emitter["to_world"] = mi.ScalarTransform4f(to_world)
+        return {"environment": emitter}
 
     def latlong(self) -> np.ndarray:
-        return self.picture
+        if self.rotation is None:
+            return self.picture
+        return bilinear(self.picture, directions(*self.picture.shape[:2], 1)[0] @ self.rotation)
 
 
 def environment(light: Light) -> Environment:

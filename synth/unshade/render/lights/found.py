@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -26,11 +26,15 @@ _FACETS = 96
 @dataclass(frozen=True)
 class CellSphere:
     """Cells of equal polar and azimuthal angle [rows, 2 rows, 3] on a sphere of ``radius`` (m) around the origin,
-    each of one radiance, lat-long in Mitsuba's convention."""
+    each of one radiance, lat-long in Mitsuba's convention; ``rotation`` [3, 3] takes their axes to the head's."""
 
     cells: np.ndarray
     radius: float
+    rotation: np.ndarray | None = None
     lambert_light = LambertLight.BLEND
+
+    def turned(self, rotation: np.ndarray) -> CellSphere:
+        return replace(self, rotation=rotation if self.rotation is None else rotation @ self.rotation)
 
     def emitters(self) -> dict[str, Any]:
         """A mesh: the radiance of Mitsuba's own sphere, where it varies, is lost on one side of nearby points."""
@@ -59,6 +63,8 @@ class CellSphere:
         v, u = np.meshgrid(np.arange(rows + 1) / rows, np.arange(columns + 1) / columns, indexing="ij")
         t, p = math.pi * v, 2 * math.pi * u
         points = self.radius * np.stack([np.sin(t) * np.sin(p), np.cos(t), -np.sin(t) * np.cos(p)], -1)
+        if self.rotation is not None:
+            points = points @ self.rotation.T
         corner = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
         a, b, c, d = corner, corner + 1, corner + columns + 1, corner + columns + 2
         # At the poles a quadrangle is one triangle.

@@ -36,6 +36,9 @@ class Panel:
         right /= np.linalg.norm(right)
         return cls(centre, right * width / 2, np.cross(forward, right) * height / 2, radiance)
 
+    def turned(self, rotation: np.ndarray) -> Panel:
+        return replace(self, **{name: rotation @ getattr(self, name) for name in ("centre", "right", "up")})
+
     @property
     def forward(self) -> np.ndarray:
         normal = np.cross(self.right, self.up)
@@ -61,6 +64,9 @@ class Panels:
 
     def scaled(self, factor: float) -> Panels:
         return Panels(tuple(replace(p, radiance=p.radiance * factor) for p in self.panels))
+
+    def turned(self, rotation: np.ndarray) -> Panels:
+        return Panels(tuple(panel.turned(rotation) for panel in self.panels))
 
     def irradiance(self, points: np.ndarray, normals: np.ndarray) -> np.ndarray:
         channels = 1 if all(grey(panel.radiance) for panel in self.panels) else 3

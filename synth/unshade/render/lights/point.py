@@ -29,6 +29,9 @@ class Ball:
     def scaled(self, factor: float) -> Ball:
         return replace(self, radiance=self.radiance * factor)
 
+    def turned(self, rotation: np.ndarray) -> Ball:
+        return replace(self, centre=rotation @ self.centre)
+
     def irradiance(self, points: np.ndarray, normals: np.ndarray) -> np.ndarray:
         """Exact wherever the whole ball stands above the surface's horizon."""
         to_light = self.centre - points

@@ -44,6 +44,9 @@ class SunSky:
     def scaled(self, factor: float) -> SunSky:
         return replace(self, sky=self.sky.scaled(factor), sun=self.sun * factor)
 
+    def turned(self, rotation: np.ndarray) -> SunSky:
+        return replace(self, sky=self.sky.turned(rotation), direction=rotation @ self.direction)
+
     def irradiance(self, points: np.ndarray, normals: np.ndarray) -> np.ndarray:
         cosine = (normals @ self.direction).clip(0)
         return self.sky.irradiance(points, normals) + cosine[:, None] * self.sun * _projected()
@@ -66,7 +69,7 @@ class SunSky:
         }
 
     def latlong(self) -> np.ndarray:
-        picture = self.sky.picture.astype(float)
+        picture = self.sky.latlong().astype(float)
         deposit(picture, self.direction, self.sun * _projected())
         return picture.astype(np.float32)
 
