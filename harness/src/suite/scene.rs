@@ -70,6 +70,9 @@ const FILES: [&str; 8] = [
     "labels",
 ];
 
+/// The key of a light that is several: views are taken in them by turns.
+const GROUPS: &str = "lights";
+
 /// A scene whose face, lights and rig are spelt out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
@@ -132,8 +135,10 @@ impl Scene {
     /// Every file that the face and the lights name.
     pub fn files(&self) -> Vec<PathBuf> {
         let own = ["face", "light"].into_iter().filter_map(|key| self.table.get(key)?.as_table());
+        let groups = own.clone().filter_map(|table| table.get(GROUPS)?.as_array()).flatten();
         let relight = self.relight();
-        own.chain(&relight)
+        own.chain(groups.filter_map(Value::as_table))
+            .chain(&relight)
             .flat_map(|table| FILES.iter().filter_map(|key| table.get(*key)?.as_str()))
             .map(PathBuf::from)
             .collect()
@@ -165,13 +170,14 @@ impl Scene {
         self
     }
 
-    /// This scene captured in `light` and relit in all the `others` of another name.
+    /// This scene captured in `light` and relit in all the single `others` of another name.
     pub fn with_lights(mut self, light: &Table, others: &[Table]) -> Self {
         let mut relight: Vec<Table> = Vec::new();
         for other in others {
             let name = other.get("name");
             let known = name == light.get("name") || relight.iter().any(|l| l.get("name") == name);
-            if !known {
+            // A picture is relit in one light.
+            if !known && !other.contains_key(GROUPS) {
                 relight.push(other.clone());
             }
         }
@@ -249,6 +255,12 @@ pub(super) fn resolve(from: &Path, key: &str, value: Value) -> Result<Table, Sce
         ));
     }
     resolve_files(&origin, &mut table);
+    if packaged::Kind::of_key(key) == packaged::Kind::Light
+        && let Some(Value::Array(groups)) = table.remove(GROUPS)
+    {
+        let groups = groups.into_iter().map(|one| resolve(&origin, GROUPS, one).map(Value::Table));
+        table.insert(GROUPS.to_owned(), Value::Array(groups.collect::<Result<_, _>>()?));
+    }
     Ok(table)
 }
 

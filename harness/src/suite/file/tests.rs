@@ -206,6 +206,37 @@ fn every_light_is_relit_in_all_the_others() {
 }
 
 #[test]
+fn a_capture_in_lights_by_turns_is_a_case_that_no_other_is_relit_in() {
+    let root = tempfile::tempdir().unwrap();
+    scenes(root.path());
+    let turns = "name = \"both\"\nkind = \"turns\"\nlights = [\"key.toml\", \"hall.toml\"]\n";
+    write(root.path(), "lights/both.toml", turns);
+    let path = write(
+        root.path(),
+        "suite.toml",
+        "format = 1\nname = \"m\"\nscene = \"scene.toml\"\n\
+         lights = [\"lights/key.toml\", \"lights/both.toml\"]\n[[method]]\nname = \"oracle\"\n",
+    );
+    let suite = Suite::open(&path).unwrap();
+    let ids: Vec<_> = suite.cases.iter().map(|case| case.id.as_str()).collect();
+    assert_eq!(ids, ["ada-key", "ada-both"]);
+    let relit = |case: usize| -> Vec<String> {
+        let lights = suite.cases[case].scene.relight();
+        lights.iter().map(|light| light["name"].as_str().unwrap().to_owned()).collect()
+    };
+    assert_eq!(relit(0), ["hall"]);
+    assert_eq!(relit(1), ["key", "hall"]);
+    let scene = &suite.cases[1].scene;
+    let hall = &scene.table["light"]["lights"][1];
+    assert_eq!(hall["kind"].as_str(), Some("envmap"));
+    let picture = root.path().join("lights/hall.exr");
+    assert_eq!(hall["path"].as_str(), picture.to_str());
+    assert_eq!(scene.files().iter().filter(|file| **file == picture).count(), 2);
+    let text = scene.to_toml().unwrap();
+    assert_eq!(text.parse::<Table>().unwrap(), scene.table);
+}
+
+#[test]
 fn maps_are_relit_under_every_scale_unless_the_suite_names_some() {
     let root = tempfile::tempdir().unwrap();
     scenes(root.path());
