@@ -184,5 +184,5 @@ def test_light_that_moves_with_respect_to_the_head_is_named(lamp: np.ndarray, tu
 def test_views_that_differ_whatever_their_light_are_no_moving_light() -> None:
     """The numbers of a rendered face whose photographs stand on their heads, in softboxes."""
     turned = LightMotion(8, one_light=0.52, own_lights=0.42)
-    assert not turned.moves and "photographs do not belong to their cameras" in (turned.warning or "")
-    assert LightMotion(8, one_light=0.07, own_lights=0.06).warning is None
+    assert not turned.moves and "photographs do not belong to their cameras" in (turned.warning("head") or "")
+    assert LightMotion(8, one_light=0.07, own_lights=0.06).warning("head") is None
