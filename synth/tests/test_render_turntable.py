@@ -24,7 +24,11 @@ from unshade.scene_file.rig import parse_rig
 
 FACE = render_toy.toy_face()
 CHOICE = llvm.choose("llvm_ad_rgb")
-TURNS = {"name": "both", "kind": "turns", "lights": [{"name": "flash", "kind": "flash"}, {"name": "even", "kind": "dome"}]}
+TURNS = {
+    "name": "both",
+    "kind": "turns",
+    "lights": [{"name": "flash", "kind": "flash"}, {"name": "even", "kind": "dome"}],
+}
 
 
 def turntable(**keys) -> Rig:
@@ -52,7 +56,12 @@ def test_the_camera_stands_still_and_the_head_turns():
         angle = np.degrees(np.arctan2(view.position[0], view.position[2]))
         np.testing.assert_allclose(view.matrix[:3, :3], about_y(angle), atol=1e-12)
         np.testing.assert_allclose(np.linalg.norm(view.position), 0.61)
-    assert all((view.matrix == other.matrix).all() for view, other in zip(views, cameras(replace(turntable(train=10, test=2, sweep_degrees=240), kind="ring"), 64, 64)))
+    assert all(
+        (view.matrix == other.matrix).all()
+        for view, other in zip(
+            views, cameras(replace(turntable(train=10, test=2, sweep_degrees=240), kind="ring"), 64, 64)
+        )
+    )
 
 
 def spotted(tmp_path) -> str:
@@ -133,7 +142,11 @@ def test_a_turned_light_is_lit_from_where_its_latlong_shows_it(name, tmp_path):
 
 def test_a_lamp_of_the_room_makes_its_highlight_halfway_to_the_camera():
     """On a smooth ball the highlight of every frame lies where the normal halves lamp and camera in the room."""
-    lamp = Light("lamp", "point", settings=PointLight(azimuth_degrees=50, elevation_degrees=20, distance_metres=30, radius_metres=0.05))
+    lamp = Light(
+        "lamp",
+        "point",
+        settings=PointLight(azimuth_degrees=50, elevation_degrees=20, distance_metres=30, radius_metres=0.05),
+    )
     own = scene(light=lamp.to_table(), rig=turntable(train=5, test=0, sweep_degrees=200).to_table())
     ball = Ball()
     head = HeadScene(ball, [], ChartMaps(
@@ -196,9 +209,13 @@ def test_captures_state_their_light_and_are_relit_in_it(toy, tmp_path):
     for name in ("003", "004"):
         own = read_exr(out / f"truth/relit/both/{name}.exr")
         assert (own["G"] == read_exr(out / f"images/{name}.exr")["G"]).all()
-    relight.relight(captured_scene(out), out / "truth", tmp_path / "relit", scales={"none": 1.0}, progress=quiet, warn=quiet)
+    relight.relight(
+        captured_scene(out), out / "truth", tmp_path / "relit", scales={"none": 1.0}, progress=quiet, warn=quiet
+    )
     for name in ("003", "004"):
-        again, own = (read_exr(folder / f"both/{name}.exr") for folder in (tmp_path / "relit/none", out / "truth/relit"))
+        again, own = (
+            read_exr(folder / f"both/{name}.exr") for folder in (tmp_path / "relit/none", out / "truth/relit")
+        )
         inside = own["G"] > 0
         spread = np.sqrt(again["variance.G"] + own["variance.G"])[inside] + 1e-3
         assert np.sqrt(np.mean(((again["G"] - own["G"])[inside] / spread).clip(-10, 10) ** 2)) < 2.5

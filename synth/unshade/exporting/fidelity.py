@@ -72,7 +72,9 @@ def setting_of(capture: Path | None, surface: Surface) -> Setting:
         views = cameras(scene.rig, scene.render.width, scene.render.height)
         view = next((v for v in views if not v.train), views[0])
         shining = {light.name: light_of_view(scene, light, view) for light in scene.lights}
-        exposed = {name: lights.exposed(light, face.chart.vertices, face.chart.normals) for name, light in shining.items()}
+        exposed = {
+            name: lights.exposed(light, face.chart.vertices, face.chart.normals) for name, light in shining.items()
+        }
         return Setting(face.parts, exposed, view, scene.render.depth)
     stated = _native.Capture(capture)
     name = [*stated.withheld, *stated.train][0]

@@ -44,7 +44,9 @@ def bilinear(picture: np.ndarray, towards: np.ndarray) -> np.ndarray:
     column = np.arctan2(towards[..., 0], -towards[..., 2]) / (2 * np.pi) * width - 0.5
     top, left = np.floor(line).astype(int).clip(0, height - 2), np.floor(column).astype(int)
     down, across = (line - top)[..., None], (column - left)[..., None]
-    rows = [picture[row, left % width] * (1 - across) + picture[row, (left + 1) % width] * across for row in (top, top + 1)]
+    rows = [
+        picture[row, left % width] * (1 - across) + picture[row, (left + 1) % width] * across for row in (top, top + 1)
+    ]
     return (rows[0] * (1 - down) + rows[1] * down).astype(picture.dtype)
 
 
