@@ -16,7 +16,7 @@ import unshade
 from unshade.fingerprint import imports_of
 
 ROOMS = [
-    "errors", "stopping", "cache_folder", "fingerprint", "srgb", "vectors", "tables", "documents", "commands", "exr", "thumbnails", "maps",
+    "errors", "stopping", "cache_folder", "fingerprint", "srgb", "vectors", "stated_light", "tables", "documents", "commands", "exr", "thumbnails", "maps",
     "perceptual", "metrics", "scores", "own_metrics", "stages", "head_page", "studies",
     "face", "files", "own_head", "scene_file", "bookkeeping", "heads", "camera", "captured_mesh", "formation",
     "importing", "render", "surface", "cycles", "exporting", "methods",

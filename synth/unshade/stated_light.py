@@ -16,7 +16,7 @@ LIGHT_FRAMES = ("head", "camera")
 
 @dataclass(frozen=True)
 class StatedLight:
-    """``frame`` is one of `LIGHT_FRAMES`; ``groups`` are the names of the lights of frames by their pictures' paths,
+    """``frame`` is one of `LIGHT_FRAMES`; ``groups`` are the names of the lights of frames by their own names,
     empty if all share one light."""
 
     frame: str
@@ -41,7 +41,8 @@ def stated_light(capture: Path) -> StatedLight:
         raise CaptureError(f"{path}: cannot be read: {error}") from error
     frame = light_frame_of(path, document)
     frames = document["frames"]
-    return StatedLight(frame, {one["file_path"]: one["light"] for one in frames if one.get("light") is not None})
+    names = {one.get("name") or Path(one["file_path"]).stem: one.get("light") for one in frames}
+    return StatedLight(frame, {name: light for name, light in names.items() if light is not None})
 
 
 def light_frame_of(path: Path, document: Mapping[str, Any]) -> str:

@@ -3,7 +3,7 @@ light that the method found and in others."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -14,7 +14,7 @@ import numpy as np
 
 from .. import _native
 from ..camera.camera import Camera
-from ..errors import CaptureError, SceneError
+from ..errors import CaptureError, MapsError, SceneError
 from ..face import Chart
 from ..files.array_store import ArrayStore
 from ..files.folder import ResumableFolder, content_hash
@@ -22,9 +22,9 @@ from ..fingerprint import fingerprint
 from ..formation.lens import opaque
 from ..scene_file import Light, Render, read_table
 from ..scene_file.light import parse_light
-from ..stated_light import stated_light
+from ..stated_light import StatedLight, stated_light
 from .given_light import GivenLight
-from .lights.found import found_light
+from .lights.found import found_lights, light_files
 from .meter import Meter, Progress
 from .relight import MAP_FILES, read_maps, write_relit
 from .rigs import moving_with
@@ -88,30 +88,37 @@ def relight_photographed(
     if not capture.withheld:
         raise CaptureError(f"{folder}: has no withheld view to relight; import it with a holdout")
     others = [given.light] if given else _lights(folder)
-    found = None if given else found_light(maps)
+    found = {} if given else found_lights(maps)
+    stated = stated_light(folder)
+    views = [_view(capture.camera(name), name) for name in capture.withheld]
+    own = Light(FOUND, "envmap")
+    jobs = [(own, _as_found(camera, maps, found, stated), camera, lens) for camera, lens in views if found]
+    jobs += [(light, light, camera, lens) for light in others for camera, lens in views]
     render = Render(width=16, height=16, samples=_SAMPLES)
-    hashes = [content_hash(maps / name) for name in (*(f"{name}.exr" for name in MAP_FILES), "light.exr", "solve.json")]
+    files = [*(maps / f"{name}.exr" for name in MAP_FILES), *light_files(maps).values(), maps / "solve.json"]
+    hashes = [content_hash(path) for path in files]
     inputs = [content_hash(folder / name) for name in ("transforms.json", "mesh.obj", LIGHTS_FILE)]
     key = f"{inputs}\n{fingerprint(__name__)}\n{hashes}\n{sorted(scales.items())}\n{seed_offset}"
     target = ResumableFolder(out, f"{key}\n{given.key}" if given else key)
     mesh = capture.mesh
     chart = Chart(mesh["vertices"], mesh["normals"], mesh["uvs"], mesh["triangles"])
     shots = Shots(PhotographedHead(chart), chart_maps, render, ArrayStore.of_user())  # type: ignore[arg-type]
-    lights = [*([Light(FOUND, "envmap")] if found else []), *others]
-    if found:
-        shots.set_light(FOUND, found)
+    for name, model in found.items():
+        shots.set_light(FOUND + name, model)
     if given:
         shots.set_light(given.light.name, given.model)
-    views = [_view(capture.camera(name), name) for name in capture.withheld]
     first = views[0][0]
-    meter = Meter(progress, len(scales) * len(lights) * len(views), first.width * first.height * render.samples)
-    moves = stated_light(folder).frame == "camera"
-    jobs = [
-        (light, moving_with(camera, light) if moves and light.name == FOUND else light, camera, lens)
-        for light in lights
-        for camera, lens in views
-    ]
+    meter = Meter(progress, len(scales) * len(jobs), first.width * first.height * render.samples)
     write_relit(target, shots, jobs, scales, seed_offset, meter)
+
+
+def _as_found(view: Camera, maps: Path, names: Collection[str], stated: StatedLight) -> Light:
+    """The light of a view's photograph, one of those that a method found, by their ``names``."""
+    name = "" if "" in names else stated.groups.get(view.name, "")
+    if name not in names:
+        raise MapsError(f"{maps}: has no light {name!r}, in which view {view.name} was taken; solve again")
+    light = Light(FOUND + name, "envmap")
+    return moving_with(view, light) if stated.frame == "camera" else light
 
 
 def _view(stated: Mapping[str, Any], name: str) -> tuple[Camera, Pinhole]:
@@ -130,6 +137,8 @@ def _lights(folder: Path) -> list[Light]:
         raise SceneError(f"{path}: has no lights; write [[relight]] tables as in a scene")
     lights = [parse_light(table, f"relight of {path}", folder) for table in tables]
     names = [light.name for light in lights]
+    if any(light.lights for light in lights):
+        raise SceneError(f"{path}: a light is several lights; name each")
     if FOUND in names or len(set(names)) < len(names):
         raise SceneError(f"{path}: a light is called {FOUND} or as another; rename it")
     return lights

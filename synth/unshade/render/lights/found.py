@@ -72,14 +72,21 @@ class CellSphere:
         return points.reshape(-1, 3), np.stack([u, v], -1).reshape(-1, 2), triangles
 
 
-def found_light(maps: Path) -> CellSphere | Environment | None:
-    """The light of a maps folder, in the exposure in which its albedo gives the photographs; None without one.
+def light_files(maps: Path) -> dict[str, Path]:
+    """The files of the lights of a maps folder by the names of the frames' lights; that of all frames has no name."""
+    path = maps / "light.exr"
+    return {"": path} if path.is_file() else {file.stem: file for file in sorted((maps / "light").glob("*.exr"))}
+
+
+def found_lights(maps: Path) -> dict[str, CellSphere | Environment]:
+    """The lights of a maps folder by `light_files`, in the exposure in which its albedo gives the photographs.
 
     Raises `MapsError` or `PictureError`.
     """
-    path = maps / "light.exr"
-    if not path.is_file():
-        return None
+    return {name: _found_light(maps, path) for name, path in light_files(maps).items()}
+
+
+def _found_light(maps: Path, path: Path) -> CellSphere | Environment:
     cells = read_light(path).clip(0)
     record = _record(maps / "solve.json")
     scale, distance = record.get("diffuse_scale", 1.0), record.get("light_distance")
