@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 import render_toy
 
-from unshade.errors import SceneError
+from unshade.errors import MapsError, SceneError
 from unshade.face.ita import Tone
-from unshade.files.pictures import read_exr, write_exr
-from unshade.render import capture, lights, llvm, relight
+from unshade.files.pictures import read_exr, read_gray, write_exr
+from unshade.render import capture, lights, llvm, photographed, relight
 from unshade.render.lights.conventions import LUMINANCE, around, directions
 from unshade.render.passes import render_layers
 from unshade.render.rigs import cameras, light_of_view
@@ -220,6 +220,41 @@ def test_captures_state_their_light_and_are_relit_in_it(toy, tmp_path):
         spread = np.sqrt(again["variance.G"] + own["variance.G"])[inside] + 1e-3
         assert np.sqrt(np.mean(((again["G"] - own["G"])[inside] / spread).clip(-10, 10) ** 2)) < 2.5
         assert (again["G"] != own["G"]).any()
+
+
+def test_photographs_are_relit_in_the_light_in_which_each_was_taken(toy, tmp_path):
+    """A capture without its truth: its true maps, relit in the true lights as if a method had found them, give its
+    withheld pictures."""
+    sky = {"name": "sky", "kind": "envmap", "path": spotted(tmp_path)}
+    light = {"name": "both", "kind": "turns", "lights": [TURNS["lights"][1], sky]}
+    both = scene(light=light, relight=[], render={"width": 40, "height": 32, "samples": 256, "depth": 4})
+    out, maps = tmp_path / "head", tmp_path / "maps"
+    capture.synthesise(both, out, CHOICE, quiet)
+    (out / "truth").rename(maps)
+    (out / photographed.LIGHTS_FILE).write_text('[[relight]]\nname = "even"\nkind = "dome"\n')
+
+    def likeness(name: str) -> tuple[float, np.ndarray]:
+        photographed.relight_photographed(
+            out, maps, tmp_path / "relit", scales={"none": 1.0}, progress=quiet, warn=quiet
+        )
+        found, taken = read_exr(tmp_path / f"relit/none/found/{name}.exr"), read_exr(out / f"images/{name}.exr")
+        inside = read_gray(out / f"masks/{name}.png") > 0
+        a, b = (np.stack([picture[c][inside] for c in "RGB"], -1) for picture in (found, taken))
+        return np.corrcoef(a.ravel(), b.ravel())[0, 1], a.mean(0) / b.mean(0)
+
+    # The mesh lacks the shoulder and the eye, so some of the light that they block or return is wrong.
+    for name, least in (("003", 0.75), ("004", 0.95)):
+        correlation, ratio = likeness(name)
+        np.testing.assert_allclose(ratio, 1, atol=0.1)
+        assert correlation > least
+    stated = out / "transforms.json"
+    turning = stated.read_text()
+    stated.write_text(turning.replace('"camera"', '"head"'))
+    assert likeness("004")[0] < 0.9
+    stated.write_text(turning)
+    (maps / "light/sky.exr").unlink()
+    with pytest.raises(MapsError, match="has no light 'sky', in which view 004 was taken"):
+        photographed.relight_photographed(out, maps, tmp_path / "b", scales={"none": 1.0}, progress=quiet, warn=quiet)
 
 
 def test_other_lights_stand_still_with_the_head():
