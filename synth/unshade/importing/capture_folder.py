@@ -34,7 +34,8 @@ class CaptureWriter:
         write_bytes(self._path / "mesh.obj", mesh.text())
 
     def view(self, taken: ImportedView, *, withheld: bool, light: str | None) -> None:
-        """Writes one view with its mask and the name of its light, if it has one; a camera keeps its lens only if ``transforms.json`` can state it."""
+        """Writes one view with its mask and the name of its light, if it has one. A camera keeps its lens only if
+        ``transforms.json`` can state it."""
         name, camera = taken.name, taken.camera
         image = f"images/{name}.exr"
         frame: dict[str, Any] = {

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from .. import _native
-from ..errors import CaptureError, StorageError
+from ..errors import CaptureError
 from ..files.folder import content_hash
 from .capture_folder import CaptureWriter
 from .changes import PLAIN, Change
@@ -33,7 +33,14 @@ from .placement import UNITS, Placement, place
 from .source import Lens, Source, SourceView, moved
 from .summary import ViewStatistics, left_out_by_reason, summary
 from .transforms_file import read_transforms
-from .view_files import present, refuse_shared_masks, refuse_shared_photographs, unregistered, with_planes
+from .view_files import (
+    present,
+    refuse_overlap,
+    refuse_shared_masks,
+    refuse_shared_photographs,
+    unregistered,
+    with_planes,
+)
 from .view_names import listed, named_views, withheld_views, without
 
 FORMATS = ("transforms", "colmap", "metashape", "emily")
@@ -193,7 +200,7 @@ class _Import:
         return source
 
     def write(self, out: Path) -> None:
-        self._keep_apart(out)
+        refuse_overlap(self.source, self.mesh_file, out)
         first = read_photograph(self.source.views[0].picture, self.choices.curve)
         reading = self._reading(first)
         if self.mesh_file is None:
@@ -238,16 +245,6 @@ class _Import:
                 f"{self.source.origin}: silhouettes overlap the masks by less than {FITTING:g} in {len(misfits)} of "
                 f"{len(self.source.views)} views: {shown}; fix their cameras or masks, or leave them out (--leave-out)"
             )
-
-    def _keep_apart(self, out: Path) -> None:
-        """Refuses an output that would replace an input."""
-        target = out.resolve()
-        for view in self.source.views:
-            for file in (self.source.origin, self.mesh_file, view.picture, view.mask, view.label):
-                if file is not None and target in (file.resolve(), *file.resolve().parents):
-                    raise StorageError(
-                        f"{out}: holds {file.name}, which is read; choose another folder for the capture"
-                    )
 
     def _reading(self, first: Photograph) -> Reading:
         choices, source = self.choices, self.source

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..errors import CaptureError
+from ..errors import CaptureError, StorageError
 from .brackets import bracket
 from .source import Source, SourceView
 from .view_names import listed, short_names, tails, without, without_ending
@@ -150,6 +150,15 @@ def refuse_shared_masks(source: Source) -> None:
     for view in source.views:
         if view.mask is not None:
             _claim(source, masks, view.mask, view, "the mask")
+
+
+def refuse_overlap(source: Source, mesh: Path | None, out: Path) -> None:
+    """Raises `StorageError` for an output that would replace an input."""
+    target = out.resolve()
+    for view in source.views:
+        for file in (source.origin, mesh, view.picture, view.mask, view.label):
+            if file is not None and target in (file.resolve(), *file.resolve().parents):
+                raise StorageError(f"{out}: holds {file.name}, which is read; choose another folder for the capture")
 
 
 def _claim(source: Source, claimed: dict[Path, SourceView], file: Path, view: SourceView, what: str) -> None:

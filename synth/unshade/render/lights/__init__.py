@@ -1,7 +1,7 @@
 """Lights as plain data: what Mitsuba emits, what falls on a face, what a lat-long shows.
 
-One file per kind; every kind has ``scaled``, ``turned`` (by a rotation of the world [3, 3]), ``irradiance`` (RGB [N, 3] at points [N, 3] m
-with unit normals), ``brightest`` (its largest radiance, RGB), ``emitters`` and ``latlong``.
+One file per kind; every kind has ``scaled``, ``turned`` (by a rotation of the world [3, 3]), ``irradiance``
+(RGB [N, 3] at points [N, 3] m with unit normals), ``brightest`` (its largest radiance, RGB), ``emitters`` and ``latlong``.
 Each light starts with its own relative radiance and is scaled by `exposed`, so that the
 largest unoccluded irradiance (Rec.709 luminance) over the front-facing normals of the
 face is pi: a white Lambert surface there has radiance 1. Directions and lat-long pictures
