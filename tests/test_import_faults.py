@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from unshade.errors import CaptureError, UnshadeError
-from unshade.importing.importer import read_source
+from unshade.importing.programs import read_source
 
 POSE = np.c_[np.eye(3), [0.0, 0.1, 1.0]].tolist()
 FRAME = {

@@ -11,10 +11,11 @@ from pathlib import Path
 from ..errors import UnshadeError
 from ..stated_light import LIGHT_FRAMES
 from .capture_folder import RECORD
-from .importer import FORMATS, import_capture
+from .importer import import_capture
 from .parser_labels import PARSERS
 from .pictures import CURVES
 from .placement import PLACES, UNITS
+from .programs import FORMATS
 
 _DESCRIPTION = "Import photographs, cameras and a mesh of other programs as a capture folder."
 _EPILOG = "unshade import maps --help: maps of other methods. docs/photographs.md describes the formats, the assumptions, and what to do if cameras do not fit."

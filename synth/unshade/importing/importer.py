@@ -18,21 +18,18 @@ from .capture_folder import CaptureWriter
 from .changes import PLAIN, Change
 from .chart_mesh import ChartMesh, read_mesh
 from .choices import HULL, MASKS, Choices
-from .colmap_model import read_colmap
 from .detective import FITTING, SOUND, Verdict, examine, overlap
-from .emily_folder import read_emily
 from .grabcut import discs_of_common_ball
 from .hull import carve
-from .metashape_file import read_metashape
 from .moving_light import LightMotion, LitView, light_motion
 from .parser_labels import LABELS, name_table
 from .photographs import ImportedView, Reading, camera_of, take, up_directions
 from .pictures import Photograph, read_photograph
 from .pinhole import Pinhole
 from .placement import UNITS, Placement, place
+from .programs import read_source
 from .source import Lens, Source, SourceView, moved
 from .summary import ViewStatistics, left_out_by_reason, summary
-from .transforms_file import read_transforms
 from .view_files import (
     present,
     refuse_overlap,
@@ -42,8 +39,6 @@ from .view_files import (
     with_planes,
 )
 from .view_names import listed, named_views, withheld_views, without
-
-FORMATS = ("transforms", "colmap", "metashape", "emily")
 
 Progress = Callable[[int, int, str], object]
 AnyPath = str | os.PathLike[str]
@@ -122,18 +117,6 @@ def import_capture(
     source = read_source(format, Path(path), choices.pictures)
     _Import(format, Path(path), source, choices, progress or (lambda done, total, what: None)).write(Path(out))
     return Path(out)
-
-
-def read_source(format: str, path: Path, pictures: Path | None = None) -> Source:
-    """The cameras of a capture. Raises `CaptureError`."""
-    if format == "transforms":
-        return read_transforms(path)
-    readers = {"colmap": read_colmap, "metashape": read_metashape, "emily": read_emily}
-    if format not in readers:
-        raise CaptureError(
-            f"format {format!r} is unknown; there are {', '.join(FORMATS)} (RealityCapture exports colmap)"
-        )
-    return readers[format](path, pictures)
 
 
 class _Import:
