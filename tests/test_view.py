@@ -294,7 +294,7 @@ def test_a_dropped_file_stands_as_the_captures_light_does(
 
 
 def test_the_suites_lights_are_those_of_the_files(head: Head, tiny_run: Path) -> None:
-    files = sorted((tiny_run / "captures" / CASE / "truth" / "lights").glob("*.exr"))
+    files = sorted((tiny_run / "captures" / CASE / "truth" / "relit_lights").glob("*.exr"))
     assert files
     names = head.page.run("[...document.getElementById('light').options].map(({ textContent }) => textContent)")
     assert {file.stem for file in files} <= set(names)

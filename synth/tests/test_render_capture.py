@@ -70,7 +70,7 @@ def test_the_folder_is_complete(captured):
         f"truth/{name}.exr"
         for name in ("diffuse_albedo", "specular_albedo", "diffuse_normal", "specular_normal", "roughness")
     }
-    expected |= {"truth/skin_tone.json"}
+    expected |= {"truth/skin_tone.json", "truth/relit_lights/uniform.exr"}
     expected |= {f"truth/{name}.png" for name in ("labels", "coverage", "views")}
     expected |= {f"truth/relit/{light}/{test}.exr" for light in ("studio", "uniform")}
     assert set(files(captured)) == expected

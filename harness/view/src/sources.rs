@@ -86,7 +86,7 @@ impl Source {
 
 /// The lights, by name, in which the truth is relit beside its own.
 pub(crate) fn other_lights(truth: &Path) -> Result<Vec<(String, Picture)>, ViewError> {
-    let folder = truth.join("lights");
+    let folder = truth.join("relit_lights");
     if !folder.is_dir() {
         return Ok(Vec::new());
     }

@@ -173,7 +173,7 @@ class Capture:
 
     def _write_relit(self, shots: Shots, light: Light) -> None:
         # For readers that light other maps: no score uses it.
-        write_exr(self.truth / "lights" / f"{light.name}.exr", {"": shots.light(light).latlong()})
+        write_exr(self.truth / "relit_lights" / f"{light.name}.exr", {"": shots.light(light).latlong()})
         for camera in self.tests:
             report = self.meter.begin(f"view {camera.name} in {light.name}")
             if not self._relit_path(light, camera).exists():
