@@ -16,8 +16,8 @@ use crate::maps::{Scales, StageMaps};
 pub struct Solution {
     /// The reflectance maps, normalised.
     pub maps: Maps,
-    /// The light of the default method.
-    pub light: Option<RecoveredLight>,
+    /// The light of each group of frames by the default method, in the order of [`capture::FrameLights::names`].
+    pub lights: Vec<RecoveredLight>,
     /// Every withheld view, rendered by the model.
     pub views: Vec<ViewLayers>,
     /// The maps after every stage, small; empty if the configuration disables them.
@@ -31,7 +31,7 @@ pub struct Solution {
 /// The results of a method: a solution without its record.
 pub(crate) struct Results {
     pub maps: Maps,
-    pub light: Option<RecoveredLight>,
+    pub lights: Vec<RecoveredLight>,
     pub views: Vec<ViewLayers>,
     pub stages: Vec<StageMaps>,
     pub scales: Scales,
@@ -94,6 +94,12 @@ pub struct Record {
     pub interrupted: Option<String>,
     /// Distance of the light from the head's centre, metres; `None` at infinity, and for the published method.
     pub light_distance: Option<f32>,
+    /// "camera" if the lights stand still with respect to the camera; `None` if with respect to the head.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub light_frame: Option<&'static str>,
+    /// The names of the groups of frames, each with its own light in `light/`, if there are several.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub lights: Vec<String>,
     /// Side of the textures that were solved for, texels.
     pub texture_size: usize,
     /// The number of samples of the full pictures.
@@ -106,7 +112,8 @@ pub struct Record {
     pub stages: Vec<StageRecord>,
 }
 
-/// The estimated light: cells of equal angles on a sphere around the head.
+/// The estimated light: cells of equal angles on a sphere around the head, in the frame of reference in which the light
+/// stands still ([`capture::LightFrame`]); that of the camera has +Z towards the camera and +Y up.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RecoveredLight {
     /// Rows of cells; twice as many columns.
@@ -118,11 +125,6 @@ pub struct RecoveredLight {
 }
 
 impl RecoveredLight {
-    /// The contrast of the light; see [`crate::transport::contrast`].
-    pub fn contrast(&self) -> f32 {
-        crate::transport::contrast(self.rows, &self.radiance)
-    }
-
     /// The radiance as a picture with one pixel per cell.
     pub fn picture(&self) -> Picture {
         let (width, height) = (2 * self.rows, self.rows);
@@ -158,8 +160,13 @@ impl Solution {
     /// Writes the files into an existing folder, for callers that add files.
     pub fn write_into(&self, folder: &Path) -> Result<(), MapsError> {
         self.maps.write_into(folder)?;
-        if let Some(light) = &self.light {
-            picture::write_exr_rgb(&folder.join("light.exr"), &light.picture())?;
+        match self.lights.as_slice() {
+            [light] => picture::write_exr_rgb(&folder.join("light.exr"), &light.picture())?,
+            lights => {
+                for (light, name) in lights.iter().zip(&self.record.lights) {
+                    picture::write_exr_rgb(&place(folder, "light", name)?, &light.picture())?;
+                }
+            }
         }
         for view in &self.views {
             let file = place(folder, "views", &view.name)?;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use capture::{Camera, Capture};
+use capture::{Camera, Capture, LightFrame};
 use formats::atomic::{self, Folder};
 use formats::maps::MapsError;
 
@@ -91,6 +91,12 @@ pub fn solve_on(
     if matches!(config, Config::Paper(_)) && !capture.truth.parts.is_empty() {
         return Err(SolveError::GivenToOther);
     }
+    if let (Config::Paper(_), Some(lights)) = (config, capture.lights.beyond_one_still_light()) {
+        return Err(SolveError::SeveralLights {
+            lights,
+            method: "the published method (paper, paper-tuned)",
+        });
+    }
     let estimate = Estimate::new(capture, config);
     estimate.fits(memory::available())?;
     let _kept = memory::KeepFreedMemory::begin();
@@ -119,13 +125,15 @@ pub fn solve_on(
         input: capture.hash().to_owned(),
         given: capture.truth.parts.iter().map(ToString::to_string).collect(),
         interrupted,
-        light_distance: results.light.as_ref().and_then(|light| light.distance),
+        light_distance: results.lights.first().and_then(|light| light.distance),
+        light_frame: (capture.lights.frame == LightFrame::Camera).then_some("camera"),
+        lights: if capture.lights.groups() > 1 { capture.lights.names.clone() } else { vec![] },
         texture_size: results.texture_size,
         samples: results.samples,
         diffuse_scale: results.scales.diffuse,
         specular_scale: results.scales.specular,
         stages,
     };
-    let crate::solution::Results { maps, light, views, stages, .. } = results;
-    Ok(Solution { maps, light, views, stages, record, timing })
+    let crate::solution::Results { maps, lights, views, stages, .. } = results;
+    Ok(Solution { maps, lights, views, stages, record, timing })
 }

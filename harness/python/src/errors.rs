@@ -79,7 +79,10 @@ impl Named for SolveError {
             Self::Capture(error) => error.class(),
             Self::Maps(error) => error.class(),
             Self::Interrupted => "Stopped",
-            Self::NotFinite { .. } | Self::Memory { .. } | Self::GivenToOther => "SolveError",
+            Self::NotFinite { .. }
+            | Self::Memory { .. }
+            | Self::GivenToOther
+            | Self::SeveralLights { .. } => "SolveError",
         }
     }
 }

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use crate::camera::Camera;
 use crate::error::CaptureError;
 use crate::first_look;
+use crate::frame_lights::FrameLights;
 use crate::mesh::Mesh;
 use crate::orientation::{self, Flipped};
 use crate::transforms::Transforms;
@@ -34,6 +35,8 @@ pub struct Capture {
     pub withheld: Vec<Camera>,
     /// Names of the label pictures' ids, as far as the file has them.
     pub label_names: BTreeMap<u8, String>,
+    /// The light of every frame, training views first, then withheld cameras.
+    pub lights: FrameLights,
     /// The parts of the truth that a privileged solve holds fixed; none unless [`Capture::with_truth`] read them.
     pub truth: Truth,
     hash: String,
@@ -105,6 +108,7 @@ impl Capture {
             train,
             withheld: transforms.withheld.into_iter().map(|frame| frame.camera).collect(),
             label_names: transforms.label_names,
+            lights: transforms.lights,
             truth: Truth::default(),
             hash: hasher.finalize().to_hex().to_string(),
         })
@@ -119,7 +123,8 @@ impl Capture {
     /// Reads these parts of the truth, for a solve that holds them fixed. The [hash](Capture::hash) changes, so that no
     /// result of such a solve passes for one without.
     pub fn with_truth(mut self, parts: &[TruthPart]) -> Result<Self, CaptureError> {
-        let truth = Truth::read(&self.folder.join("truth"), &self.train, parts)?;
+        let truth =
+            Truth::read(&self.folder.join("truth"), &self.train, &self.lights.names, parts)?;
         if !truth.parts.is_empty() {
             let mut hasher = blake3::Hasher::new();
             hasher.update(self.hash.as_bytes());

@@ -4,8 +4,10 @@ use std::path::{Path, PathBuf};
 
 use glam::{Mat3, Mat4};
 use serde::{Deserialize, Deserializer};
+use serde_json::Value;
 
 use super::Camera;
+use super::frame_lights::light_name;
 use super::lens::Distortion;
 use super::paths::{inside, plain};
 
@@ -24,6 +26,8 @@ pub(super) struct Frame {
     pub image_path: PathBuf,
     pub mask_path: PathBuf,
     pub label_path: Option<PathBuf>,
+    /// The name of the light, which other frames may share.
+    pub light: Option<String>,
 }
 
 /// Purpose of a frame.
@@ -84,11 +88,18 @@ pub(super) struct FileFrame {
     mask_path: Option<String>,
     label_path: Option<String>,
     transform_matrix: Vec<Vec<f64>>,
+    #[serde(default)]
+    light: Value,
     #[serde(flatten)]
     own: Shared,
 }
 
 impl FileFrame {
+    /// Whether the frame names its light.
+    pub fn has_light(&self) -> bool {
+        !self.light.is_null()
+    }
+
     /// The frame whose picture has the plain path `file_path`, with what `shared` says of all.
     pub fn resolve(
         &self,
@@ -98,6 +109,7 @@ impl FileFrame {
         purpose: Use,
     ) -> Result<Frame, String> {
         let camera = self.camera(file_path, shared)?;
+        let light = light_name(&self.light)?;
         let distortion = self.lens(shared)?;
         let image_path = inside(root, file_path)?;
         let mask_path = match &self.mask_path {
@@ -129,7 +141,8 @@ impl FileFrame {
             return Err(format!("is a {kind}, but pictures are linear float EXR files; {fix}"));
         }
         let label_path = self.label_path.as_ref().map(|path| inside(root, &plain(path)));
-        Ok(Frame { camera, distortion, image_path, mask_path, label_path: label_path.transpose()? })
+        let label_path = label_path.transpose()?;
+        Ok(Frame { camera, distortion, image_path, mask_path, label_path, light })
     }
 
     fn camera(&self, file_path: &str, shared: &Shared) -> Result<Camera, String> {

@@ -8,6 +8,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::frame::{FileFrame, Frame, Shared, Use, matrix};
+use super::frame_lights::{FrameLights, LightFrame, require_all_or_none};
 use super::paths::{inside, plain};
 
 /// File of the mesh where `transforms.json` names none.
@@ -21,6 +22,7 @@ pub(super) struct Transforms {
     pub label_names: BTreeMap<u8, String>,
     /// The transform that the writer of the file applied to all cameras, if it states one.
     pub applied: Option<Mat4>,
+    pub lights: FrameLights,
 }
 
 #[derive(Deserialize)]
@@ -35,6 +37,7 @@ struct File {
     /// A hint alone, so that any value passes.
     #[serde(default)]
     applied_transform: Value,
+    light_frame: Option<Value>,
     #[serde(flatten)]
     shared: Shared,
 }
@@ -45,6 +48,8 @@ impl Transforms {
         let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
         let file: File = serde_json::from_slice(bytes).map_err(|error| error.to_string())?;
         let frames = frames(&file)?;
+        require_all_or_none(frames.iter().map(|(path, frame)| (path.as_str(), frame.has_light())))?;
+        let light_frame = LightFrame::parse(file.light_frame.as_ref())?;
         let paths = |paths: &[String]| paths.iter().map(|path| plain(path)).collect::<Vec<_>>();
         let test = paths(&file.test_filenames);
         let train = match &file.train_filenames {
@@ -87,6 +92,9 @@ impl Transforms {
         };
         let train = pick("train_filenames", &train, Use::Train)?;
         let withheld = pick("test_filenames", &test, Use::Withhold)?;
+        let all = train.iter().chain(&withheld);
+        let of_frames: Vec<_> = all.map(|frame| (&frame.camera, frame.light.as_deref())).collect();
+        let lights = FrameLights::new(light_frame, &of_frames, withheld.len())?;
         let mesh_path = match &file.mesh {
             Some(mesh) => inside(root, &plain(mesh)).map_err(|reason| format!("mesh: {reason}"))?,
             None if root.join(MESH).is_file() => root.join(MESH),
@@ -104,7 +112,7 @@ impl Transforms {
         }
         let applied = Vec::<Vec<f64>>::deserialize(&file.applied_transform).ok();
         let applied = applied.and_then(|rows| matrix(&rows).ok());
-        Ok(Self { mesh_path, train, withheld, label_names: file.label_names, applied })
+        Ok(Self { mesh_path, train, withheld, label_names: file.label_names, applied, lights })
     }
 }
 

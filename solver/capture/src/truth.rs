@@ -81,17 +81,20 @@ pub struct Truth {
 /// The true light.
 #[derive(Clone, Debug)]
 pub struct TrueLight {
-    /// Radiance by direction from the head's centre, lat-long with the first and last row on the poles.
-    pub picture: Picture,
+    /// Radiance by direction from the head's centre, lat-long with the first and last row on the poles, of every group
+    /// of frames, in the frame of reference in which the lights stand still.
+    pub pictures: Vec<Picture>,
     /// Mean distance of the lamps from the head's centre, metres; none at infinity.
     pub distance: Option<f32>,
 }
 
 impl Truth {
-    /// Reads parts from the truth's `folder` of a capture with these training views.
+    /// Reads parts from the truth's `folder` of a capture with these training views and `groups` of frames with a light
+    /// each.
     pub(crate) fn read(
         folder: &Path,
         train: &[View],
+        groups: &[String],
         parts: &[TruthPart],
     ) -> Result<Self, CaptureError> {
         if !parts.is_empty() && !folder.is_dir() {
@@ -122,8 +125,14 @@ impl Truth {
         for part in &truth.parts {
             match part {
                 TruthPart::Light => {
-                    let picture = map("light.exr", &rgb)?;
-                    truth.light = Some(TrueLight { picture, distance: distance(folder)? });
+                    let file = |group: &String| format!("light/{group}.exr");
+                    let files = match groups {
+                        [] | [_] => vec!["light.exr".to_owned()],
+                        _ => groups.iter().map(file).collect(),
+                    };
+                    let pictures = files.iter().map(|file| map(file, &rgb));
+                    let pictures = pictures.collect::<Result<_, _>>()?;
+                    truth.light = Some(TrueLight { pictures, distance: distance(folder)? });
                 }
                 TruthPart::Specular => truth.specular = Some(map("specular_albedo.exr", &["Y"])?),
                 TruthPart::Roughness => truth.roughness = Some(map("roughness.exr", &["alpha1"])?),
@@ -146,7 +155,8 @@ impl Truth {
 const STUDIO: f32 = 1.5;
 const FLASH: f32 = 1.3;
 
-/// The distance of the lamps by the `[light]` of `scene.toml`; none for a light at infinity.
+/// The distance of the lamps by the `[light]` of `scene.toml`, or the smallest of several lights; none for a light at
+/// infinity.
 fn distance(folder: &Path) -> Result<Option<f32>, CaptureError> {
     let path = folder.join("scene.toml");
     let fault = |reason: String| CaptureError::Truth { path: path.clone(), reason };
@@ -157,6 +167,13 @@ fn distance(folder: &Path) -> Result<Option<f32>, CaptureError> {
     let Some(light) = scene.get("light").and_then(toml::Value::as_table) else {
         return Err(fault("has no [light]; render the capture again with `unshade synth`".into()));
     };
+    let several = light.get("lights").and_then(toml::Value::as_array).into_iter().flatten();
+    let lights = several.filter_map(toml::Value::as_table).chain([light]);
+    Ok(lights.filter_map(distance_of).reduce(f32::min))
+}
+
+/// The distance of the lamps of a light's table.
+fn distance_of(light: &toml::Table) -> Option<f32> {
     let stated = light.get("distance_metres").and_then(|value| {
         value.as_float().or_else(|| value.as_integer().map(|metres| metres as f64))
     });
@@ -165,5 +182,5 @@ fn distance(folder: &Path) -> Result<Option<f32>, CaptureError> {
         Some("flash") => Some(FLASH),
         _ => None,
     };
-    Ok(stated.map(|metres| metres as f32).or(by_kind))
+    stated.map(|metres| metres as f32).or(by_kind)
 }

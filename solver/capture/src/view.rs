@@ -25,7 +25,7 @@ pub struct View {
 
 impl View {
     pub(super) fn open(frame: &Frame) -> Result<Self, CaptureError> {
-        let Frame { camera, distortion, image_path, mask_path, label_path } = frame;
+        let Frame { camera, distortion, image_path, mask_path, label_path, .. } = frame;
         let check = |path: &Path, width: usize, height: usize| {
             if (width, height) == (camera.width, camera.height) {
                 return Ok(());

@@ -35,7 +35,7 @@ pub struct Samples {
     pub taps: Taps,
     /// Pixel number within its view.
     pub pixel: Vec<u32>,
-    /// Number of the view.
+    /// Number of the frame: training views, then withheld cameras.
     pub view_index: Vec<u32>,
 }
 
@@ -139,10 +139,13 @@ impl SampleSpace {
         self.arrange(&samples, size)
     }
 
-    /// Every pixel at which a withheld camera sees the front of the mesh.
-    pub fn withheld(&self, gbuffer: &GBuffer, size: usize) -> Samples {
-        let samples: Vec<_> =
-            (0..gbuffer.len()).map(|i| sample(gbuffer, i, Vec3::ZERO, 0.0)).collect();
+    /// Every pixel at which the camera of the frame `number` sees the front of the mesh, without its picture.
+    pub fn withheld(&self, gbuffer: &GBuffer, number: usize, size: usize) -> Samples {
+        let sample = |i: usize| {
+            let view_index = number as u32;
+            Sample { view_index, ..sample(gbuffer, i, Vec3::ZERO, 0.0) }
+        };
+        let samples: Vec<_> = (0..gbuffer.len()).map(sample).collect();
         self.arrange(&samples, size)
     }
 

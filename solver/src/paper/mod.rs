@@ -197,7 +197,7 @@ fn assemble(
     };
     Ok(Results {
         maps,
-        light: None,
+        lights: vec![],
         views,
         stages,
         scales,
@@ -216,7 +216,8 @@ fn synthesise(
 ) -> ViewLayers {
     cancel::check();
     let gbuffer = GBuffer::new(&scene.capture.mesh, camera, None);
-    let samples = scene.space.withheld(&gbuffer, fields.size);
+    // The shading by networks does not depend on the frame.
+    let samples = scene.space.withheld(&gbuffer, 0, fields.size);
     let shading = fields.layers(&samples, deviation, run.backend);
     let albedo = fields.albedo(&samples);
     let channels = ViewLayers::CHANNELS.len();

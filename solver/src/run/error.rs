@@ -17,6 +17,14 @@ pub enum SolveError {
         "only `unshade` can be given parts of the truth; choose a configuration with this base, and no baseline"
     )]
     GivenToOther,
+    /// The method has one light that stands still, the capture has others.
+    #[error("{lights}, but {method} assumes one light that stands still; use unshade")]
+    SeveralLights {
+        /// The lights of the capture.
+        lights: &'static str,
+        /// The method's name.
+        method: &'static str,
+    },
     /// The capture shows nothing of the mesh.
     #[error(transparent)]
     Capture(#[from] CaptureError),

@@ -29,15 +29,17 @@ pub struct SkinHighlights<'a> {
 }
 
 impl Transport {
-    /// Highlights of a light of R, G, B per cell, scaled so that its [`Self::peak`] is 1. The light is filtered with
-    /// this power of the cosine, usually [`LIGHT_EXPONENT`](super::LIGHT_EXPONENT).
+    /// Highlights of a light of R, G, B per cell, in units of a `peak`: its own [`Self::peak`], or that of the light
+    /// for which the reflectances hold. The light is filtered with this power of the cosine, usually
+    /// [`LIGHT_EXPONENT`](super::LIGHT_EXPONENT).
     pub fn skin_highlights<'a>(
         &'a self,
         skin: &'a SkinConfig,
         light: &[f32],
+        peak: f32,
         exponent: i32,
     ) -> SkinHighlights<'a> {
-        let scale = scale(skin, self.peak(light));
+        let scale = scale(skin, peak);
         let light = self.through_lobes(light, exponent);
         let mut cells = vec![[[0.0; LANES]; CELL]; self.cells().div_ceil(LANES)];
         for (cell, (centre, light)) in self.sky.centres().iter().zip(&light).enumerate() {
@@ -201,7 +203,7 @@ mod tests {
         let terms = terms(samples.len());
         let (skin, peak) = (UnshadeConfig::default().skin, transport.peak(&light));
         let rows = transport.reflection(&skin, &samples, &terms, peak, NEARNESS);
-        let highlights = transport.skin_highlights(&skin, &light, LIGHT_EXPONENT);
+        let highlights = transport.skin_highlights(&skin, &light, peak, LIGHT_EXPONENT);
         let found = highlights.on(&samples, &samples.normal, &terms);
         assert!(samples.len() > 500);
         for (i, expected) in rows.radiance(&light).into_iter().enumerate() {
@@ -215,9 +217,9 @@ mod tests {
     #[test]
     fn slopes_are_those_of_finite_differences() {
         let (transport, light, samples) = scene();
-        let skin = UnshadeConfig::default().skin;
+        let (skin, peak) = (UnshadeConfig::default().skin, transport.peak(&light));
         const STEP: f32 = 2e-3;
-        let highlights = transport.skin_highlights(&skin, &light, LIGHT_EXPONENT);
+        let highlights = transport.skin_highlights(&skin, &light, peak, LIGHT_EXPONENT);
         let terms = terms(samples.len());
         let along = |axis: Vec3, step: f32| {
             let normal = |i: usize| {

@@ -47,6 +47,14 @@ impl Matrix {
         self.rows.par_chunks(self.cells).map(|row| dots(row, planes)).collect()
     }
 
+    /// [`Self::product`] of some rows; 0 elsewhere.
+    pub fn product_of_rows(&self, light: &[f32], is_used: &[bool]) -> Vec<[f32; CHANNELS]> {
+        let planes = planes(light);
+        let planes = planes.each_ref().map(Vec::as_slice);
+        let rows = self.rows.par_chunks(self.cells).zip(is_used);
+        rows.map(|(row, used)| if *used { dots(row, planes) } else { [0.0; CHANNELS] }).collect()
+    }
+
     /// The adjoint of [`Self::product`]: the gradient with respect to the light.
     pub fn adjoint(&self, by_row: &[[f32; CHANNELS]]) -> Vec<f32> {
         self.summed(|i, _| (by_row[i], ())).0
@@ -73,7 +81,9 @@ impl Matrix {
             let mut sums = vec![0.0f32; CHANNELS * self.cells];
             let work = |(i, row)| {
                 let (by_row, rest): ([f32; CHANNELS], T) = value(chunk * CHUNK + i, row);
-                add_to_channels(&mut sums, row, by_row);
+                if by_row != [0.0; CHANNELS] {
+                    add_to_channels(&mut sums, row, by_row);
+                }
                 rest
             };
             let rest = rows.chunks_exact(self.cells).enumerate().map(work).collect();

@@ -4,7 +4,7 @@
 use std::f64::consts::{PI, TAU};
 
 use formats::picture::Picture;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
@@ -122,6 +122,23 @@ impl Sky {
             }
         }
         rays
+    }
+
+    /// Unit directions within each cell, `side` x `side` of equal solid angle, cell by cell.
+    pub(super) fn points(&self, side: usize) -> Vec<DVec3> {
+        let of_cell = |Cell { polar, azimuth }: &Cell| {
+            let ([top, bottom], [left, right]) = (polar.map(f64::cos), *azimuth);
+            let along = move |at: usize, from: f64, to: f64| {
+                from + (to - from) * (at as f64 + 0.5) / side as f64
+            };
+            (0..side * side).map(move |at| {
+                let cosine = along(at / side, top, bottom);
+                let azimuth = along(at % side, left, right);
+                let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+                DVec3::new(sine * azimuth.sin(), cosine, -sine * azimuth.cos())
+            })
+        };
+        self.cells.iter().flat_map(of_cell).collect()
     }
 
     /// The central direction of every cell, unit.

@@ -7,7 +7,7 @@ use super::confidence::{confidence, picture_weight};
 use super::inpainting::inpaint_from_region;
 use super::known::Known;
 use super::light::JointEstimate;
-use super::lighting::{Lighting, SHADING_ROWS, bent_shading};
+use super::lighting::{Lighting, SHADING_ROWS, bent_shadings};
 use super::region_terms::RegionTerms;
 use super::relief::Relief;
 use crate::config::{AdamConfig, ModelErrorConfig, UnshadeConfig};
@@ -64,11 +64,7 @@ impl SampledLayers {
         let soft = samples.taps.sample::<3>(blurred);
         let highlights = lighting.highlights(run.backend, terms, samples, LIGHT_EXPONENT);
         let shading_with_derivative = lighting.shading_with_derivative(samples);
-        let shading = Planes::from_fn(samples.len(), |i| {
-            let normal = Vec3::from_array(samples.normal.sample(i, 0));
-            let bent = (normal + Vec3::from_array(soft.sample(i, 0))).normalize();
-            bent_shading(&shading_with_derivative.sample(i, 0), normal, bent)
-        });
+        let shading = bent_shadings(samples, &shading_with_derivative, &soft);
         let highlights = highlights.at(samples, &sharp);
         Self { shading, shading_with_derivative, highlights }
     }

@@ -21,7 +21,7 @@ use crate::run::error::SolveError;
 use crate::run::progress::LayerSink;
 use crate::scene::Scene;
 use crate::semantic::regions::FaceRegions;
-use crate::solution::{RecoveredLight, Results, ViewLayers};
+use crate::solution::{Results, ViewLayers};
 use crate::transport::{CHANNELS, SpecularTerm};
 
 /// The estimates of all stages.
@@ -76,10 +76,10 @@ pub(super) fn assemble(
         false => vec![],
     };
     let blurred = relief.blurred();
-    let synthesise = |camera: &Camera| {
+    let synthesise = |(number, camera): (usize, &Camera)| {
         cancel::check();
         let gbuffer = GBuffer::new(mesh, camera, None);
-        let samples = scene.space.withheld(&gbuffer, size);
+        let samples = scene.space.withheld(&gbuffer, number, size);
         let layers = SampledLayers::new(run, lighting, &joint.terms, &relief, &blurred, &samples);
         let albedo = samples.taps.sample::<CHANNELS>(&diffuse);
         let channels = ViewLayers::CHANNELS.len();
@@ -94,10 +94,11 @@ pub(super) fn assemble(
         }
         ViewLayers { name: camera.name.clone(), picture }
     };
-    let views = scene.capture.withheld.iter().map(synthesise).collect();
+    let train = scene.capture.train.iter().map(|view| &view.camera);
+    let withheld = (train.len()..).zip(&scene.capture.withheld);
+    let views = withheld.map(synthesise).collect();
     if let Some(sink) = layer_sink.filter(|_| config.records.layers) {
-        let train = scene.capture.train.iter();
-        train.map(|view| synthesise(&view.camera)).try_for_each(|view| sink(&view))?;
+        train.enumerate().map(synthesise).try_for_each(|view| sink(&view))?;
     }
 
     let atlas = Atlas::new(mesh, map_size);
@@ -125,13 +126,9 @@ pub(super) fn assemble(
         roughness: picture(3, lobes.collect()).filter(|_| config.roughness.rounds > 0),
         coverage: Some(coverage(&seen)),
     };
-    let light = RecoveredLight {
-        radiance: maps::scaled(&lighting.light.radiance, scene.picture_scale.recip()),
-        ..lighting.light.clone()
-    };
     Ok(Results {
         maps,
-        light: Some(light),
+        lights: lighting.recovered(scene.picture_scale),
         views,
         stages,
         scales,

@@ -55,6 +55,7 @@ pub struct HeightProblem<'a> {
     /// See [`Lighting::shading_with_derivative`].
     shading_with_derivative: Planes,
     highlights: ReliefHighlights<'a>,
+    has_one_illumination: bool,
     /// Conjugate-gradient steps per reweighting.
     steps: usize,
     neighbourhood: Neighbourhood<'a>,
@@ -86,6 +87,7 @@ impl<'a> HeightProblem<'a> {
             albedo: samples.taps.sample::<CHANNELS>(&albedo),
             shading_with_derivative: lighting.shading_with_derivative(samples),
             highlights: lighting.highlights(backend, &joint.terms, samples, LIGHT_EXPONENT),
+            has_one_illumination: lighting.is_one(),
             steps: config.steps,
             neighbourhood: Neighbourhood::new(config, samples, views),
         }

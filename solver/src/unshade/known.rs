@@ -6,6 +6,7 @@ use capture::gbuffer::Atlas;
 use formats::picture::Picture;
 use glam::Vec3;
 
+use super::illuminations::Illuminations;
 use super::region_terms::RegionTerms;
 use crate::config::UnshadeConfig;
 use crate::model::planes::Planes;
@@ -47,14 +48,25 @@ impl<'a> Known<'a> {
         self.truth.light.is_some()
     }
 
-    /// The logarithm of the light's radiance per cell, scaled to a mean shading of 1, and its nearness per metre.
-    pub fn light(&self, far: &Transport, rows: usize) -> Option<(Vec<f32>, f32)> {
+    /// The logarithm of the radiance per cell of every group's light, scaled to a mean shading of 1, and its nearness per metre.
+    pub fn light(
+        &self,
+        far: &Transport,
+        illuminations: &Illuminations,
+        rows: usize,
+    ) -> Option<(Vec<f32>, f32)> {
         let light = self.truth.light.as_ref()?;
         let nearness = light.distance.map_or(0.0, f32::recip);
-        let cells = Sky::lat_long(rows).means(&light.picture);
+        let sky = Sky::lat_long(rows);
+        let cells: Vec<f32> = light.pictures.iter().flat_map(|one| sky.means(one)).collect();
         let relative = nearness / far.nearness_unit();
-        let shading = luminances(&far.shading_nearer(&cells, relative).0);
-        let mean = shading.iter().sum::<f32>() / shading.len().max(1) as f32;
+        let mean = |illumination: usize| {
+            let light = illuminations.light(&cells, illumination);
+            let shading = luminances(&far.shading_nearer(&light, relative).0);
+            shading.iter().sum::<f32>() / shading.len().max(1) as f32
+        };
+        let trained = illuminations.trained();
+        let mean = (0..trained).map(mean).sum::<f32>() / trained.max(1) as f32;
         let log = |radiance: &f32| (radiance / mean).max(LEAST_RADIANCE).ln();
         Some((cells.iter().map(log).collect(), nearness))
     }

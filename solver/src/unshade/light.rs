@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::explicit::{ExplicitModel, JointFit, exp};
+use super::illuminations::Illuminations;
 use super::light_fit_data::LightFitData;
 use super::region_terms::{RegionTerms, uniformity};
 use super::tint::without_tint;
@@ -11,12 +12,12 @@ use crate::config::UnshadeConfig;
 use crate::model::samples::Samples;
 use crate::run::Run;
 use crate::run::error::SolveError;
-use crate::transport::{CHANNELS, Transport, contrast};
+use crate::transport::{CHANNELS, Transport};
 
 /// The light under albedos that are held fixed.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct LightEstimate {
-    /// Logarithm of the radiance, R, G, B per cell.
+    /// Logarithm of the radiance, R, G, B per cell of every group.
     pub log_light: Vec<f32>,
     /// The log radiance fitted to each fold of the face; see [`super::two_fold`].
     pub folds: [Vec<f32>; 2],
@@ -34,7 +35,7 @@ pub(super) struct LightEstimate {
 }
 
 impl LightEstimate {
-    /// A sky of radiance 1 at infinity.
+    /// Skies of radiance 1 at infinity, of this number of cells in all.
     pub fn uniform(cells: usize, bounce_albedo: f32, terms: RegionTerms) -> Self {
         let log_light = vec![0.0; CHANNELS * cells];
         Self {
@@ -60,11 +61,12 @@ pub(super) fn fit_light(
     estimate: &LightEstimate,
     round: usize,
 ) -> Result<LightEstimate, SolveError> {
-    let samples = data.samples_of_skin();
+    let (lights, samples) = (data.illuminations, data.samples_of_skin());
     let terms = estimate.terms.texture(data.regions);
     let nearness_per_metre = estimate.nearness_per_metre;
     let model = |samples: &Samples, log_light: &[f32]| {
-        ExplicitModel::new(config, far, samples, &terms, &exp(log_light), nearness_per_metre)
+        let light = exp(log_light);
+        ExplicitModel::new(config, far, lights, samples, &terms, &light, nearness_per_metre)
     };
     let mut fit = TwoFoldLightFit::new(
         config,
@@ -75,7 +77,7 @@ pub(super) fn fit_light(
         config.light.steps_of(round),
         model,
     );
-    let (folds, relative_nearness) = match data.known.light(far, config.transport.rows) {
+    let (folds, relative_nearness) = match data.known.light(far, lights, config.transport.rows) {
         Some((log_light, nearness)) => {
             ([log_light.clone(), log_light], nearness / far.nearness_unit())
         }
@@ -93,10 +95,10 @@ pub(super) fn fit_light(
     let errors = Some(&config.model_error);
     let regression =
         model.regression(&light, relative_nearness, data.region_colours, &weight, errors);
-    let factor = relative_peak(far, &light, &exp(&estimate.log_light));
+    let factor = relative_peak(far, lights, &light, &exp(&estimate.log_light));
     let terms = estimate.terms.relative_to(factor).with_reflectance(
         &config.reflectance,
-        uniformity(contrast(config.transport.rows, &light)),
+        uniformity(lights.contrast(config.transport.rows, &light)),
         &regression,
         data.regions,
         &model.highlight_limits(&light, &weight, data.regions),
@@ -112,36 +114,41 @@ pub(super) fn fit_light(
     Ok(LightEstimate {
         fold_disagreement: match has_light {
             true => f32::MIN_POSITIVE,
-            false => fold_disagreement(far, &folds, relative_nearness),
+            false => fold_disagreement(far, lights, &folds, relative_nearness),
         },
         folds,
         nearness_per_metre: relative_nearness * far.nearness_unit(),
-        bounce_albedo: bounce_albedo(far, &exp(&log_light), &albedo),
+        bounce_albedo: bounce_albedo(lights.peak(far, &exp(&log_light)), &albedo),
         log_light,
         terms,
         tint,
     })
 }
 
-/// The albedo of bounces under a light: the median over texels of the mean reflectance of R, G and B.
-fn bounce_albedo(transport: &Transport, light: &[f32], albedo: &[f32]) -> f32 {
+/// The albedo of bounces under lights of this peak: the median over texels of the mean reflectance of R, G and B.
+fn bounce_albedo(peak: f32, albedo: &[f32]) -> f32 {
     let mut means: Vec<f32> =
         albedo.chunks_exact(CHANNELS).map(|rgb| rgb.iter().sum::<f32>() / 3.0).collect();
     let middle = means.len() / 2;
     let (_, median, _) = means.select_nth_unstable_by(middle, f32::total_cmp);
-    (*median * transport.peak(light)).min(1.0)
+    (*median * peak).min(1.0)
 }
 
-/// The peak of a light over that of another; 1 if either is black.
-fn relative_peak(transport: &Transport, light: &[f32], other: &[f32]) -> f32 {
-    let [peak, other] = [light, other].map(|light| transport.peak(light));
+/// The [peak](Illuminations::peak) of lights over that of others; 1 if either is black.
+fn relative_peak(
+    transport: &Transport,
+    illuminations: &Illuminations,
+    light: &[f32],
+    other: &[f32],
+) -> f32 {
+    let [peak, other] = [light, other].map(|light| illuminations.peak(transport, light));
     if peak > 0.0 && other > 0.0 { peak / other } else { 1.0 }
 }
 
 /// Light and diffuse albedo together.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct JointEstimate {
-    /// Logarithm of the radiance, R, G, B per cell.
+    /// Logarithm of the radiance, R, G, B per cell of every group.
     pub log_light: Vec<f32>,
     /// The unscaled diffuse albedo, R, G, B per texel of the transport. Radiance x
     /// [`Scene::picture_scale`](crate::scene::Scene::picture_scale) = albedo x S_d; times
@@ -175,14 +182,13 @@ pub(super) fn fit_joint(
 ) -> Result<JointEstimate, SolveError> {
     let JointEstimate { log_light, albedo, terms } = start;
     let (light, texture) = (exp(&log_light), terms.texture(data.regions));
-    let nearness_per_metre = near.nearness_per_metre();
-    let model =
-        ExplicitModel::new(config, near, data.samples, &texture, &light, nearness_per_metre);
+    let (lights, samples, nearness) = (data.illuminations, data.samples, near.nearness_per_metre());
+    let model = ExplicitModel::new(config, near, lights, samples, &texture, &light, nearness);
     let steps = if has_grey_prior { config.joint.grey_steps } else { config.joint.steps };
     let model = model.with_grey_prior(has_grey_prior);
     let mut fit = JointFit::new(config, model, steps, log_light, albedo);
     run.fit(name, &mut fit)?;
     let JointFit { log_light, albedo, .. } = fit;
-    let terms = terms.relative_to(relative_peak(near, &exp(&log_light), &light));
+    let terms = terms.relative_to(relative_peak(near, lights, &exp(&log_light), &light));
     Ok(JointEstimate { log_light, albedo, terms })
 }

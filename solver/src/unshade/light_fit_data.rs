@@ -1,5 +1,6 @@
 //! The data of the light fits.
 
+use super::illuminations::Illuminations;
 use super::known::Known;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
@@ -8,6 +9,7 @@ use crate::semantic::regions::FaceRegions;
 /// The halved pictures on the transport's texture, with the region and the region's colour of every texel.
 pub(super) struct LightFitData<'a> {
     pub known: Known<'a>,
+    pub illuminations: &'a Illuminations,
     pub samples: &'a Samples,
     pub face: &'a FaceRegions,
     /// The region of every texel.

@@ -3,10 +3,12 @@
 use glam::Vec3;
 
 use super::explicit::exp;
+use super::illuminations::{Illuminations, by_parts};
 use super::light::{JointEstimate, LightEstimate};
 use super::region_terms::{RegionTerms, uniformity};
 use crate::backend::Backend;
 use crate::config::{SkinConfig, UnshadeConfig};
+use crate::maps::scaled;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::model::texture::{interleave, resample};
@@ -15,21 +17,24 @@ use crate::transport::{CHANNELS, SpecularTerm, Transport};
 
 use super::relief_highlights::ReliefHighlights;
 
-/// The estimated light, and the shading under it on the transport's texture.
+/// The estimated light, and the shading under each illumination on the transport's texture.
 pub(super) struct Lighting<'a> {
     transport: &'a Transport,
     skin: &'a SkinConfig,
     regions: &'a [u8],
-    /// S_d, R, G, B per texel.
-    shading: Vec<f32>,
-    /// Its derivative, 9 values per texel; see [`Transport::shading_by_normal`].
-    shading_by_normal: Vec<f32>,
-    /// See [`Transport::peak`].
+    illuminations: &'a Illuminations,
+    /// S_d (R, G, B per texel) of every illumination, and its derivative, 9 values per texel; see
+    /// [`Transport::shading_by_normal`].
+    shadings: Vec<[Vec<f32>; 2]>,
+    /// The radiance, R, G, B per cell of every group.
+    radiance: Vec<f32>,
+    rows: usize,
+    /// See [`Illuminations::peak`].
     pub peak: f32,
     /// See [`LightEstimate::fold_disagreement`].
     pub fold_disagreement: f32,
-    /// The light for the record.
-    pub light: RecoveredLight,
+    /// Distance of the light from the head's centre, metres; none at infinity.
+    distance: Option<f32>,
 }
 
 impl<'a> Lighting<'a> {
@@ -37,21 +42,27 @@ impl<'a> Lighting<'a> {
     pub fn new(
         config: &'a UnshadeConfig,
         transport: &'a Transport,
+        illuminations: &'a Illuminations,
         regions: &'a [u8],
         estimate: &LightEstimate,
         joint: &JointEstimate,
     ) -> Self {
         let radiance = exp(&joint.log_light);
         let nearness = estimate.nearness_per_metre;
-        let distance = (nearness > 0.0).then(|| nearness.recip());
+        let shading = |illumination: usize| {
+            let light = illuminations.light(&radiance, illumination);
+            [transport.shading(&light), transport.shading_by_normal(&light)]
+        };
         Self {
             skin: &config.skin,
             regions,
-            shading: transport.shading(&radiance),
-            shading_by_normal: transport.shading_by_normal(&radiance),
-            peak: transport.peak(&radiance),
+            illuminations,
+            shadings: (0..illuminations.len()).map(shading).collect(),
+            rows: config.transport.rows,
+            peak: illuminations.peak(transport, &radiance),
             fold_disagreement: estimate.fold_disagreement,
-            light: RecoveredLight { rows: config.transport.rows, distance, radiance },
+            distance: (nearness > 0.0).then(|| nearness.recip()),
+            radiance,
             transport,
         }
     }
@@ -63,7 +74,25 @@ impl<'a> Lighting<'a> {
 
     /// See [`uniformity`].
     pub fn uniformity(&self) -> f32 {
-        uniformity(self.light.contrast())
+        uniformity(self.illuminations.contrast(self.rows, &self.radiance))
+    }
+
+    /// Whether all frames have one illumination.
+    pub fn is_one(&self) -> bool {
+        self.illuminations.is_one()
+    }
+
+    /// The light of every group, its radiance divided by the scale of the pictures.
+    pub fn recovered(&self, picture_scale: f32) -> Vec<RecoveredLight> {
+        let light = |group: usize| RecoveredLight {
+            rows: self.rows,
+            distance: self.distance,
+            radiance: scaled(
+                self.illuminations.of_group(&self.radiance, group),
+                picture_scale.recip(),
+            ),
+        };
+        (0..self.illuminations.groups()).map(light).collect()
     }
 
     /// The highlights of this light on samples with these terms. The light is filtered with this power of the cosine.
@@ -77,18 +106,26 @@ impl<'a> Lighting<'a> {
         let texture = terms.texture(self.regions);
         let texture = resample(&texture, self.size(), SpecularTerm::ROWS, samples.taps.size());
         let specular = samples.taps.sample::<{ SpecularTerm::ROWS }>(&texture);
-        let highlights =
-            self.transport.skin_highlights(self.skin, &self.light.radiance, light_exponent);
-        ReliefHighlights::new(backend, highlights, specular)
+        let parts = self.illuminations.parts(samples);
+        let highlights = parts.iter().map(|part| {
+            let light = self.illuminations.light(&self.radiance, part.illumination);
+            self.transport.skin_highlights(self.skin, &light, self.peak, light_exponent)
+        });
+        let highlights = highlights.collect();
+        ReliefHighlights::new(backend, parts, highlights, specular)
     }
 
     /// S_d at every sample, and its derivative with respect to the normal ([`SHADING_ROWS`] rows).
     pub fn shading_with_derivative(&self, samples: &Samples) -> Planes {
         let size = samples.taps.size();
-        let shading = resample(&self.shading, self.size(), CHANNELS, size);
-        let by_normal = resample(&self.shading_by_normal, self.size(), 3 * CHANNELS, size);
-        let parts: [(&[f32], usize); 2] = [(&shading, CHANNELS), (&by_normal, 3 * CHANNELS)];
-        samples.taps.sample::<SHADING_ROWS>(&interleave::<SHADING_ROWS>(&parts))
+        let parts = self.illuminations.parts(samples);
+        by_parts::<SHADING_ROWS>(&parts, samples.len(), |_, part| {
+            let [shading, by_normal] = &self.shadings[part.illumination];
+            let shading = resample(shading, self.size(), CHANNELS, size);
+            let by_normal = resample(by_normal, self.size(), 3 * CHANNELS, size);
+            let rows: [(&[f32], usize); 2] = [(&shading, CHANNELS), (&by_normal, 3 * CHANNELS)];
+            part.samples(samples).taps.sample::<SHADING_ROWS>(&interleave::<SHADING_ROWS>(&rows))
+        })
     }
 }
 
@@ -104,5 +141,18 @@ pub(super) fn bent_shading(
     std::array::from_fn(|c| {
         let slope = Vec3::from_slice(&shading_with_derivative[CHANNELS + 3 * c..]);
         (shading_with_derivative[c] + slope.dot(bent - normal)).max(0.0)
+    })
+}
+
+/// [`bent_shading`] of every sample, whose mesh normal is bent by `deviations`.
+pub(super) fn bent_shadings(
+    samples: &Samples,
+    shading_with_derivative: &Planes,
+    deviations: &Planes,
+) -> Planes {
+    Planes::from_fn(samples.len(), |i| {
+        let normal = Vec3::from_array(samples.normal.sample(i, 0));
+        let bent = (normal + Vec3::from_array(deviations.sample(i, 0))).normalize();
+        bent_shading(&shading_with_derivative.sample(i, 0), normal, bent)
     })
 }

@@ -7,6 +7,7 @@ mod deviation_penalty;
 mod explicit;
 mod grey;
 mod height_solve;
+mod illuminations;
 mod inpainting;
 mod known;
 mod light;
@@ -30,6 +31,7 @@ use capture::Capture;
 
 use self::albedo::{FullPictures, fit_albedo};
 use self::assemble::{Estimates, assemble};
+use self::illuminations::Illuminations;
 use self::known::Known;
 use self::light::{JointEstimate, LightEstimate, fit_joint, fit_light};
 use self::light_fit_data::LightFitData;
@@ -68,6 +70,8 @@ pub(crate) fn solve(
     run.record_time("regions");
 
     let sky = Sky::lat_long(config.transport.rows);
+    let illuminations =
+        Illuminations::new(&capture.lights, capture.train.len(), config.transport.rows);
     let far = Transport::with_nearness(&capture.mesh, &sky, &config.transport, config.seed);
     run.record_time("rays");
     let pictures = scene.halved(light_halvings(scene.pixels(), config.light.samples));
@@ -76,6 +80,7 @@ pub(crate) fn solve(
     drop(pictures);
     let data = LightFitData {
         known,
+        illuminations: &illuminations,
         samples: &coarse_samples,
         face: &face,
         regions: &coarse_regions,
@@ -84,7 +89,8 @@ pub(crate) fn solve(
     let reflectance = scene.picture_scale * config.skin.reflectance;
     let terms = RegionTerms::prior(reflectance, &face.skin, &coarse_regions);
     let terms = known.terms(terms, config, coarse_size);
-    let mut light = LightEstimate::uniform(far.cells(), config.transport.bounce_albedo, terms);
+    let cells = illuminations.groups() * far.cells();
+    let mut light = LightEstimate::uniform(cells, config.transport.bounce_albedo, terms);
     for round in 1..=config.light.rounds {
         light = run.stage_from(&format!("light {round}"), light, |run, name, light| {
             fit_light(run, name, config, &far, &data, &light, round)
@@ -108,7 +114,7 @@ pub(crate) fn solve(
         fit_joint(run, name, config, &near, &data, grey, false)
     })?;
     drop(coarse_samples);
-    let lighting = Lighting::new(config, &near, &coarse_regions, &light, &joint);
+    let lighting = Lighting::new(config, &near, &illuminations, &coarse_regions, &light, &joint);
 
     let relief = run.stage("relief", |run, name| match known.deviations(&scene) {
         Some([deviation, diffuse]) => {

@@ -2,6 +2,7 @@
 //! pictures, which include shadows.
 
 use super::explicit::exp;
+use super::illuminations::by_parts;
 use super::light::JointEstimate;
 use super::light_fit_data::LightFitData;
 use crate::backend::Backend;
@@ -18,19 +19,24 @@ pub(super) fn recoloured(
     data: &LightFitData,
     mut estimate: JointEstimate,
 ) -> JointEstimate {
-    let LightFitData { known, samples, regions, face, .. } = *data;
+    let LightFitData { known, illuminations, samples, regions, face, .. } = *data;
     if face.skin.is_empty() && !known.has_light() {
         return estimate;
     }
     let light = exp(&estimate.log_light);
     let region = |i: usize| regions[samples.taps.nearest(i)];
-    let highlights = backend.highlights(
-        &transport.skin_highlights(config, &light, LIGHT_EXPONENT),
-        samples,
-        &samples.normal,
-        &Planes::from_fn(samples.len(), |i| estimate.terms.of(region(i)).channels()),
-    );
-    let shading = samples.taps.sample::<CHANNELS>(&transport.shading(&light));
+    let terms = Planes::from_fn(samples.len(), |i| estimate.terms.of(region(i)).channels());
+    let (parts, peak) = (illuminations.parts(samples), illuminations.peak(transport, &light));
+    let highlights = by_parts::<CHANNELS>(&parts, samples.len(), |_, part| {
+        let light = illuminations.light(&light, part.illumination);
+        let highlights = transport.skin_highlights(config, &light, peak, LIGHT_EXPONENT);
+        let samples = part.samples(samples);
+        backend.highlights(&highlights, &samples, &samples.normal, &part.planes(&terms))
+    });
+    let shading = by_parts::<CHANNELS>(&parts, samples.len(), |_, part| {
+        let light = illuminations.light(&light, part.illumination);
+        part.samples(samples).taps.sample::<CHANNELS>(&transport.shading(&light))
+    });
     // Per region and channel: the sums of the observed radiance and of the radiance of a white surface.
     let mut sums = [[[0.0_f64; 2]; CHANNELS]; 256];
     for i in 0..samples.len() {

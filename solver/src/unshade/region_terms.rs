@@ -271,7 +271,7 @@ mod tests {
             std::array::from_fn::<f32, CHANNELS, _>(|c| 3.0 + factor(i) * predicted[i][c])
         };
         let rows = |i: usize| [predicted[i], [0.0; CHANNELS]];
-        let regression = Regression::new(&samples, &samples.weight, rows, observed);
+        let regression = Regression::new(&samples, &samples.weight, None, rows, observed);
         let config = UnshadeConfig::default().reflectance;
         let all =
             everywhere(SKIN).with_reflectance(&config, 0.0, &regression, &regions, &NO_LIMITS);
@@ -337,7 +337,7 @@ mod tests {
         let rows = |i: usize| [predicted[i], slope(i)];
         let observed =
             |i: usize| std::array::from_fn(|c| 3.0 + 1.7 * (predicted[i][c] + 0.2 * slope(i)[c]));
-        let regression = Regression::new(&samples, &samples.weight, rows, observed);
+        let regression = Regression::new(&samples, &samples.weight, None, rows, observed);
         let found = |config: &RoughnessConfig, uniformity: f32| {
             let all = everywhere(SKIN).with_roughness(config, uniformity, &regression, &regions);
             assert_eq!(all.of(1).reflectance, SKIN);

@@ -1,7 +1,8 @@
 //! Regression of the observed on the predicted highlights and on their derivatives: a Gauss-Newton step for the
 //! specular term of every region.
 //!
-//! Diffuse radiance does not depend on the view, so the mean over the samples of a texel is subtracted.
+//! Diffuse radiance does not depend on the view, so the mean over the samples of a texel is subtracted. Under several
+//! illuminations it is an albedo times the shading, so the projection onto the shading is subtracted.
 
 use std::ops::Range;
 
@@ -17,7 +18,6 @@ pub(super) type Predicted = [[f32; CHANNELS]; SpecularTerm::ROWS];
 #[derive(Clone, Copy, Default)]
 struct TexelSums {
     count: f64,
-    weight: f64,
     /// Moments of predicted and observed highlights, channel by channel.
     moments: [Moments; CHANNELS],
     view: u32,
@@ -26,6 +26,8 @@ struct TexelSums {
 
 #[derive(Clone, Copy, Default)]
 struct Moments {
+    /// The squared basis of the diffuse radiance, and its products with predicted and observed highlights.
+    basis: f64,
     predicted: [f64; SpecularTerm::ROWS],
     observed: f64,
     products: [[f64; SpecularTerm::ROWS]; SpecularTerm::ROWS],
@@ -41,10 +43,12 @@ pub(super) struct Regression {
 }
 
 impl Regression {
-    /// Predicted and observed radiance of every sample, linear, with the weight of every sample.
+    /// Predicted and observed radiance of every sample, linear, with the weight of every sample. The diffuse radiance
+    /// of a texel is a multiple of `basis`, R, G, B of every sample; `None` is a constant.
     pub fn new(
         samples: &Samples,
         weight: &Planes,
+        basis: Option<&Planes>,
         predicted: impl Fn(usize) -> Predicted,
         observed: impl Fn(usize) -> [f32; CHANNELS],
     ) -> Self {
@@ -66,18 +70,19 @@ impl Regression {
             sums.has_several_views |= sums.count > 0.0 && sums.view != view;
             sums.view = view;
             sums.count += 1.0;
-            sums.weight += weight;
             let (predicted, observed) = (predicted(i), observed(i));
             for (c, moments) in sums.moments.iter_mut().enumerate() {
+                let basis = basis.map_or(1.0, |basis| f64::from(basis.get(c, i)));
                 let o = f64::from(observed[c]);
+                moments.basis += weight * (basis * basis);
                 let p = predicted.map(|row| f64::from(row[c]));
                 for k in 0..SpecularTerm::ROWS {
-                    moments.predicted[k] += weight * p[k];
+                    moments.predicted[k] += weight * (basis * p[k]);
                     moments.cross[k] += weight * (p[k] * o);
                     (0..SpecularTerm::ROWS)
                         .for_each(|l| moments.products[k][l] += weight * (p[k] * p[l]));
                 }
-                moments.observed += weight * o;
+                moments.observed += weight * (basis * o);
                 moments.observed_squared += weight * (o * o);
             }
         }
@@ -88,17 +93,17 @@ impl Regression {
     pub fn sums(&self, within: impl Fn(usize) -> bool, channels: Range<usize>) -> RegressionSums {
         let mut sums = RegressionSums { degrees_of_freedom: -1.0, ..RegressionSums::default() };
         let texels = self.texels.iter().filter(|(at, t)| t.has_several_views && within(*at));
-        for (_, TexelSums { count, weight, moments, .. }) in texels {
+        for (_, TexelSums { count, moments, .. }) in texels {
             sums.degrees_of_freedom += count - 1.0;
-            for m in &moments[channels.clone()] {
+            for m in moments[channels.clone()].iter().filter(|m| m.basis > 0.0) {
                 for k in 0..SpecularTerm::ROWS {
-                    sums.cross[k] += m.cross[k] - m.predicted[k] * m.observed / weight;
+                    sums.cross[k] += m.cross[k] - m.predicted[k] * m.observed / m.basis;
                     for l in 0..SpecularTerm::ROWS {
                         sums.products[k][l] +=
-                            m.products[k][l] - m.predicted[k] * m.predicted[l] / weight;
+                            m.products[k][l] - m.predicted[k] * m.predicted[l] / m.basis;
                     }
                 }
-                sums.observed += m.observed_squared - m.observed * m.observed / weight;
+                sums.observed += m.observed_squared - m.observed * m.observed / m.basis;
             }
         }
         sums

@@ -2,22 +2,31 @@
 
 use glam::Vec3;
 
+use super::illuminations::{PartOfSamples, by_parts};
 use crate::backend::Backend;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::transport::{HIGHLIGHT_ROWS, SkinHighlights, SpecularTerm};
 
-/// The highlights of a light on samples with their specular terms.
+/// The highlights of every illumination on its samples with their specular terms.
 pub(super) struct ReliefHighlights<'a> {
     backend: &'a dyn Backend,
-    highlights: SkinHighlights<'a>,
+    parts: Vec<PartOfSamples>,
+    /// Those of each part.
+    highlights: Vec<SkinHighlights<'a>>,
     /// See [`SpecularTerm::at`].
     specular: Planes,
 }
 
 impl<'a> ReliefHighlights<'a> {
-    pub fn new(backend: &'a dyn Backend, highlights: SkinHighlights<'a>, specular: Planes) -> Self {
-        Self { backend, highlights, specular }
+    /// `highlights` are those of each of the `parts`.
+    pub fn new(
+        backend: &'a dyn Backend,
+        parts: Vec<PartOfSamples>,
+        highlights: Vec<SkinHighlights<'a>>,
+        specular: Planes,
+    ) -> Self {
+        Self { backend, parts, highlights, specular }
     }
 
     /// Multiplies the roughness of the samples by a factor.
@@ -27,7 +36,8 @@ impl<'a> ReliefHighlights<'a> {
             SpecularTerm { roughness: factor * term.roughness, ..term }.channels()
         };
         let specular = Planes::from_fn(self.specular.len(), term);
-        Self { specular, highlights: self.highlights.clone(), ..*self }
+        let (parts, highlights) = (self.parts.clone(), self.highlights.clone());
+        Self { backend: self.backend, parts, highlights, specular }
     }
 
     /// The highlights, R, G, B, with normals bent by the first rows of `deviations`, and the derivative of their
@@ -38,8 +48,11 @@ impl<'a> ReliefHighlights<'a> {
                 + Vec3::from_array(deviations.sample(i, 0))
         };
         let normals = Planes::from_fn(samples.len(), |i| bent(i).normalize().to_array());
-        let highlights =
-            self.backend.highlights(&self.highlights, samples, &normals, &self.specular);
+        let highlights = by_parts::<HIGHLIGHT_ROWS>(&self.parts, samples.len(), |at, part| {
+            let [normals, specular] = [&normals, &self.specular].map(|planes| part.planes(planes));
+            let samples = part.samples(samples);
+            self.backend.highlights(&self.highlights[at], &samples, &normals, &specular)
+        });
         Planes::from_fn(samples.len(), |i| {
             let normal = Vec3::from_array(normals.sample(i, 0));
             let [r, g, b, x, y, z]: [f32; HIGHLIGHT_ROWS] = highlights.sample(i, 0);

@@ -2,7 +2,7 @@
 //! would appear as roughness, so the heights are fitted first.
 
 use super::albedo::FullPictures;
-use super::lighting::Lighting;
+use super::lighting::{Lighting, bent_shadings};
 use super::region_terms::RegionTerms;
 use super::regression::Regression;
 use super::relief::Relief;
@@ -27,6 +27,11 @@ pub(super) fn measure_roughness(
 ) -> RegionTerms {
     let samples = &pictures.samples.thinned_in_runs(config.samples);
     let sharp = samples.taps.sample::<3>(&relief.deviation);
+    // Without several illuminations the diffuse radiance of a texel is constant.
+    let basis = (!lighting.is_one()).then(|| {
+        let soft = samples.taps.sample::<3>(&relief.blurred());
+        bent_shadings(samples, &lighting.shading_with_derivative(samples), &soft)
+    });
     let round = |terms: RegionTerms, _| {
         let highlights = lighting.highlights(backend, &terms, samples, NEARLY_UNFILTERED_EXPONENT);
         let predicted = highlights.at(samples, &sharp);
@@ -35,7 +40,8 @@ pub(super) fn measure_roughness(
         let slope = |i: usize| std::array::from_fn(|c| change(c, i) / ROUGHER.ln());
         let rows = |i: usize| [predicted.sample::<CHANNELS>(i, 0), slope(i)];
         let observed = |i: usize| samples.target.sample(i, 0);
-        let regression = Regression::new(samples, &samples.weight, rows, observed);
+        let weight = &samples.weight;
+        let regression = Regression::new(samples, weight, basis.as_ref(), rows, observed);
         terms.with_roughness(config, lighting.uniformity(), &regression, pictures.regions)
     };
     (0..config.rounds).fold(terms.clone(), round)

@@ -61,7 +61,7 @@ pub(super) mod tests {
         observed: impl Fn(usize) -> [f32; CHANNELS],
     ) -> [f32; CHANNELS] {
         let rows = |i: usize| [predicted[i], [0.0; CHANNELS]];
-        Regression::new(samples, &samples.weight, rows, observed).tint()
+        Regression::new(samples, &samples.weight, None, rows, observed).tint()
     }
 
     /// `tint` of the prediction over a paint that differs from texel to texel.

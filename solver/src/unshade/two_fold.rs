@@ -6,6 +6,7 @@
 //! overfits after a few.
 
 use super::explicit::{ExplicitModel, LightFit, exp};
+use super::illuminations::Illuminations;
 use crate::backend::Backend;
 use crate::backend::resident::Variable;
 use crate::config::UnshadeConfig;
@@ -91,18 +92,26 @@ pub(super) fn mean(log_lights: &[Vec<f32>; 2]) -> Vec<f32> {
     a.iter().zip(b).map(mean).collect()
 }
 
-/// The mean absolute deviation of the shadings by two lights from their mean, over that mean.
+/// The mean absolute deviation of the shadings by two lights from their mean, over that mean, under all illuminations
+/// of training views.
 pub(super) fn fold_disagreement(
     transport: &Transport,
+    illuminations: &Illuminations,
     log_lights: &[Vec<f32>; 2],
     relative_nearness: f32,
 ) -> f32 {
-    let [a, b] = log_lights
-        .each_ref()
-        .map(|log_light| transport.shading_nearer(&exp(log_light), relative_nearness).0);
-    let (difference, sum) = a.iter().zip(&b).fold((0.0, 0.0), |(difference, sum), (a, b)| {
-        (difference + f64::from((a - b).abs()), sum + f64::from(a + b))
-    });
+    let lights = log_lights.each_ref().map(|log_light| exp(log_light));
+    let (mut difference, mut sum) = (0.0, 0.0);
+    for illumination in 0..illuminations.trained() {
+        let [a, b] = lights.each_ref().map(|light| {
+            let light = illuminations.light(light, illumination);
+            transport.shading_nearer(&light, relative_nearness).0
+        });
+        for (a, b) in a.iter().zip(&b) {
+            difference += f64::from((a - b).abs());
+            sum += f64::from(a + b);
+        }
+    }
     if sum > 0.0 { (difference / sum) as f32 } else { 0.0 }
 }
 

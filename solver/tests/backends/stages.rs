@@ -112,7 +112,8 @@ pub fn skin_highlights(backend: &dyn Backend) {
     let transport = Transport::new(&mesh, &sky, &config.transport, 0);
     let light = (0..3 * transport.cells()).map(|i| (0.3 * (i as f32 * 0.37).sin()).exp());
     let light: Vec<f32> = light.collect();
-    let skin_highlights = transport.skin_highlights(&config.skin, &light, LIGHT_EXPONENT);
+    let peak = transport.peak(&light);
+    let skin_highlights = transport.skin_highlights(&config.skin, &light, peak, LIGHT_EXPONENT);
     let tilted = |i: usize| {
         let tilt = [0.37, 0.51, 0.73].map(|k| 0.2 * (i as f32 * k).sin());
         (Vec3::from_array(samples.normal.sample(i, 0)) + Vec3::from_array(tilt)).normalize()

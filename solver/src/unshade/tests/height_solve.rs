@@ -66,7 +66,8 @@ fn missed(relief: ReliefConfig, fault: Fault) -> Missed {
     };
     let estimate = LightEstimate::uniform(transport.cells(), 0.4, terms.clone());
     let regions = vec![1; TEXELS];
-    let lighting = Lighting::new(&config, &transport, &regions, &estimate, &joint);
+    let one = Illuminations::one();
+    let lighting = Lighting::new(&config, &transport, &one, &regions, &estimate, &joint);
     let backend = Cpu::new();
 
     let atlas = Atlas::new(&mesh, SIDE);

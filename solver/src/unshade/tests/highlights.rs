@@ -35,7 +35,9 @@ fn gradients_reach_light_distance_and_albedo() {
         (0..3 * SIDE * SIDE).map(|i| 0.1 + 0.8 * (i as f32 * 12.9898).sin().abs()).collect();
     let terms = SpecularTerm::usual(0.2).channels().repeat(SIDE * SIDE);
     let nearness = 0.4 * transport.nearness_unit();
-    let model = ExplicitModel::new(&config, &transport, &samples, &terms, &exp(&light), nearness);
+    let (one, radiance) = (Illuminations::one(), exp(&light));
+    let model =
+        ExplicitModel::new(&config, &transport, &one, &samples, &terms, &radiance, nearness);
     let model = model.with_grey_prior(true);
     let found = model.gradient(&light, 0.4, &albedo);
     let check = |what: &str, found: &[f32], step: f32, loss: &dyn Fn(usize, f32) -> f64| {
@@ -80,6 +82,7 @@ struct Lamp {
     config: UnshadeConfig,
     sky: Sky,
     transport: Transport,
+    illuminations: Illuminations,
     samples: Samples,
     /// R, G, B per texel.
     albedo: Vec<f32>,
@@ -123,14 +126,16 @@ fn lamp(rougher: f32) -> Lamp {
     let sky = Sky::lat_long(config.transport.rows);
     let transport = Transport::with_nearness(&mesh, &sky, &config.transport, 0);
     let albedo = ALBEDO.to_array().repeat(size * size);
-    Lamp { config, sky, transport, samples, albedo, direction }
+    let illuminations = Illuminations::one();
+    Lamp { config, sky, transport, illuminations, samples, albedo, direction }
 }
 
 impl Lamp {
     fn model(&self, reflectance: f32, samples: &Samples, light: &[f32]) -> ExplicitModel<'_> {
         let texels = self.transport.size() * self.transport.size();
         let terms = SpecularTerm::usual(reflectance).channels().repeat(texels);
-        ExplicitModel::new(&self.config, &self.transport, samples, &terms, light, 0.1)
+        let Self { config, transport, illuminations, .. } = self;
+        ExplicitModel::new(config, transport, illuminations, samples, &terms, light, 0.1)
     }
 
     /// Fits the light to the pictures with an albedo.
@@ -281,7 +286,8 @@ fn highlights_show_the_roughness_of_skin() {
             albedo: lamp.albedo.clone(),
             terms: terms.clone(),
         };
-        let lighting = Lighting::new(&lamp.config, &transport, &regions, &estimate, &joint);
+        let one = Illuminations::one();
+        let lighting = Lighting::new(&lamp.config, &transport, &one, &regions, &estimate, &joint);
         let config = RoughnessConfig { rounds: 3, error: 0.0, ..lamp.config.roughness.clone() };
         let (flat, backend) = (Relief::none(side), Cpu::new());
         let face = FaceRegions::default();

@@ -5,6 +5,7 @@ mod height_solve;
 mod highlights;
 mod interrupts;
 mod known;
+mod lights;
 mod recolour;
 
 use std::ops::ControlFlow;

@@ -41,6 +41,7 @@ fn under_a_known_light_hair_in_the_shade_gets_its_own_colour_and_skin_stays() {
     };
     let data = LightFitData {
         known: Known::new(&capture.truth, scene.picture_scale),
+        illuminations: &Illuminations::one(),
         samples: &scene.samples_at_half_resolution(None, size),
         face: &face,
         regions: &regions,
