@@ -9,11 +9,7 @@ use std::borrow::Cow;
 use super::grey::grey_prior;
 use super::illuminations::{Illuminations, PartOfSamples, by_parts};
 use super::regression::Regression;
-use crate::backend::Backend;
-use crate::backend::resident::Variable;
-use crate::config::{AdamConfig, LightConfig, ModelErrorConfig, UnshadeConfig};
-use crate::fit::adam::Adam;
-use crate::fit::{self, Fit};
+use crate::config::{LightConfig, ModelErrorConfig, UnshadeConfig};
 use crate::model::planes::Planes;
 use crate::model::prior::albedo_prior;
 use crate::model::samples::Samples;
@@ -27,10 +23,10 @@ const DARKEST: f32 = 0.1;
 
 /// The model on the transport's texture.
 pub(super) struct ExplicitModel<'a> {
-    config: &'a LightConfig,
+    pub(super) config: &'a LightConfig,
     prior_weight: f32,
     has_grey_prior: bool,
-    transport: &'a Transport,
+    pub(super) transport: &'a Transport,
     illuminations: &'a Illuminations,
     samples: Samples,
     split: Vec<PartOfSamples>,
@@ -310,121 +306,4 @@ fn grey_of_all(shadings: &[Shading], by_shadings: &mut [Vec<f32>]) -> f64 {
 /// The exponentials of a light's logarithm.
 pub(super) fn exp(log_light: &[f32]) -> Vec<f32> {
     log_light.iter().map(|log| log.exp()).collect()
-}
-
-/// The light and its distance under an albedo that is held fixed.
-pub(super) struct LightFit<'a> {
-    pub model: ExplicitModel<'a>,
-    /// Logarithm of the radiance, R, G, B per cell.
-    pub log_light: Vec<f32>,
-    /// One value; see [`Transport::nearness_unit`].
-    pub relative_nearness: Vec<f32>,
-    albedo: &'a [f32],
-    light_adam: Adam,
-    nearness_adam: Adam,
-}
-
-impl<'a> LightFit<'a> {
-    /// Starts from a log radiance and a nearness.
-    pub fn new(
-        model: ExplicitModel<'a>,
-        albedo: &'a [f32],
-        log_light: Vec<f32>,
-        relative_nearness: f32,
-    ) -> Self {
-        let (adam, config) = (AdamConfig::default(), model.config);
-        Self {
-            light_adam: Adam::new(&adam, config.rate, log_light.len()),
-            nearness_adam: Adam::new(&adam, config.nearness_rate, 1),
-            model,
-            albedo,
-            log_light,
-            relative_nearness: vec![relative_nearness],
-        }
-    }
-
-    /// Steps taken.
-    pub fn steps(&self) -> usize {
-        self.light_adam.steps()
-    }
-
-    /// The loss of the light of another fit.
-    pub fn loss_of(&self, other: &Self) -> f64 {
-        self.model.gradient(&other.log_light, other.relative_nearness[0], self.albedo).loss
-    }
-
-    /// The loss, and its gradients with respect to [`Self::variables`].
-    pub fn gradient(&self) -> (f64, Vec<Vec<f32>>) {
-        let gradient = self.model.gradient(&self.log_light, self.relative_nearness[0], self.albedo);
-        (gradient.loss, vec![gradient.by_log_light, vec![gradient.by_relative_nearness]])
-    }
-
-    /// The light and its nearness.
-    pub fn variables(&mut self) -> Vec<Variable<'_>> {
-        let nearness = Variable::new(&mut self.relative_nearness, &mut self.nearness_adam, 0.0);
-        vec![
-            Variable::new(&mut self.log_light, &mut self.light_adam, f32::NEG_INFINITY),
-            Variable { maximum: self.model.transport.max_relative_nearness(), ..nearness },
-        ]
-    }
-
-    /// Takes one step by `decay` of the learning rates, and returns the loss before it.
-    pub fn step(&mut self, decay: f32) -> f64 {
-        let (loss, gradients) = self.gradient();
-        fit::step(self.variables(), &gradients, decay);
-        loss
-    }
-}
-
-/// Light and diffuse albedo together; the distance of the light is held fixed.
-pub(super) struct JointFit<'a> {
-    /// Logarithm of the radiance, R, G, B per cell.
-    pub log_light: Vec<f32>,
-    /// The diffuse albedo, R, G, B per texel of the transport.
-    pub albedo: Vec<f32>,
-    model: ExplicitModel<'a>,
-    iterations: usize,
-    light_adam: Adam,
-    albedo_adam: Adam,
-}
-
-impl<'a> JointFit<'a> {
-    /// Starts from a log radiance and an albedo.
-    pub fn new(
-        config: &UnshadeConfig,
-        model: ExplicitModel<'a>,
-        iterations: usize,
-        log_light: Vec<f32>,
-        albedo: Vec<f32>,
-    ) -> Self {
-        let (joint, adam) = (&config.joint, AdamConfig::default());
-        Self {
-            iterations,
-            light_adam: Adam::new(&adam, joint.light_rate, log_light.len()),
-            albedo_adam: Adam::new(&adam, joint.albedo_rate, albedo.len()),
-            log_light,
-            albedo,
-            model,
-        }
-    }
-}
-
-impl Fit for JointFit<'_> {
-    fn iterations(&self) -> usize {
-        self.iterations
-    }
-
-    fn gradient(&self, _: &dyn Backend) -> (f64, Vec<Vec<f32>>) {
-        // The transport was cast at the light's distance already.
-        let relative_nearness = 0.0;
-        let gradient = self.model.gradient(&self.log_light, relative_nearness, &self.albedo);
-        (gradient.loss, vec![gradient.by_log_light, gradient.by_albedo])
-    }
-
-    fn variables(&mut self) -> Vec<Variable<'_>> {
-        vec![
-            Variable::new(&mut self.log_light, &mut self.light_adam, f32::NEG_INFINITY),
-            Variable::new(&mut self.albedo, &mut self.albedo_adam, 0.0),
-        ]
-    }
 }

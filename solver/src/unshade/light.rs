@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::explicit::{ExplicitModel, JointFit, exp};
+use super::explicit::{ExplicitModel, exp};
+use super::explicit_fits::JointFit;
 use super::illuminations::Illuminations;
 use super::light_fit_data::LightFitData;
 use super::region_terms::{RegionTerms, uniformity};

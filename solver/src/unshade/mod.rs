@@ -5,6 +5,7 @@ mod assemble;
 mod confidence;
 mod deviation_penalty;
 mod explicit;
+mod explicit_fits;
 mod grey;
 mod height_solve;
 mod illuminations;

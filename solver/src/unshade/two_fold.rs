@@ -5,7 +5,8 @@
 //! fold. The fit stops at the least validation loss: a lamp keeps narrowing for hundreds of steps, a uniform sky
 //! overfits after a few.
 
-use super::explicit::{ExplicitModel, LightFit, exp};
+use super::explicit::{ExplicitModel, exp};
+use super::explicit_fits::LightFit;
 use super::illuminations::Illuminations;
 use crate::backend::Backend;
 use crate::backend::resident::Variable;

@@ -55,7 +55,7 @@ fn known_parts_stand_in_the_maps_and_in_the_record() {
     let solution = solve(&capture, &Config::Unshade(config), &mut silent).unwrap();
     assert_eq!(solution.record.given, ["light", "specular", "normals"]);
 
-    let cells = solution.lights[0].radiance;
+    let cells = &solution.lights[0].radiance;
     let ratios: Vec<f32> = (0..rows)
         .map(|row| {
             let polar = std::f32::consts::PI * (row as f32 + 0.5) / rows as f32;
