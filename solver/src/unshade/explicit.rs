@@ -128,6 +128,14 @@ impl<'a> ExplicitModel<'a> {
         by_parts::<CHANNELS>(&self.split, self.samples.len(), colours)
     }
 
+    /// The predicted highlights of all samples.
+    fn highlights(&self, light: &[f32]) -> Planes {
+        self.by_parts(|_, part| {
+            let radiance = part.reflection.radiance(&self.light(light, part));
+            Planes::from_fn(radiance.len(), |i| radiance[i])
+        })
+    }
+
     /// The factor on each channel that gives the light the colour of its highlights, at the same
     /// [peak](Illuminations::peak); the albedo is to be divided by it.
     pub(super) fn tint(
@@ -162,10 +170,7 @@ impl<'a> ExplicitModel<'a> {
         });
         let observed =
             |i: usize| std::array::from_fn(|c| samples.target.get(c, i) - layer.get(c, i));
-        let predicted = self.by_parts(|_, part| {
-            let radiance = part.reflection.radiance(&self.light(light, part));
-            Planes::from_fn(radiance.len(), |i| radiance[i])
-        });
+        let predicted = self.highlights(light);
         // Diffuse radiance of one illumination does not depend on the view; else it is that of its shading.
         let basis = (self.parts.len() > 1).then(|| {
             self.by_parts(|at, part| part.samples.taps.sample::<CHANNELS>(&shadings[at].values))
@@ -194,8 +199,10 @@ impl<'a> ExplicitModel<'a> {
         weight: &Planes,
         regions: &[u8],
     ) -> [f32; 256] {
+        let predicted = self.highlights(light);
         let mut limits: Vec<Vec<(f32, f32)>> = vec![vec![]; 256];
-        for (i, highlight) in self.reflection.radiance(light).iter().enumerate() {
+        for i in 0..self.samples.len() {
+            let highlight: [f32; CHANNELS] = predicted.sample(i, 0);
             let region = usize::from(regions[self.samples.taps.nearest(i)]);
             let limit = (0..CHANNELS).map(|c| self.samples.target.get(c, i) / highlight[c]);
             let limit = limit.fold(f32::INFINITY, f32::min);

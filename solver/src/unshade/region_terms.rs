@@ -313,7 +313,8 @@ mod tests {
         let (samples, predicted) = scene();
         let texels = samples.taps.size() * samples.taps.size();
         let rows = |i: usize| [predicted[i], [0.0; CHANNELS]];
-        let regression = Regression::new(&samples, &samples.weight, rows, |_| [1.0; CHANNELS]);
+        let regression =
+            Regression::new(&samples, &samples.weight, None, rows, |_| [1.0; CHANNELS]);
         let config = UnshadeConfig::default().reflectance;
         let found = |limit: f32| {
             let limits = [limit; 256];
