@@ -196,6 +196,9 @@ impl Measurement {
         deviation: f32,
     ) -> (f64, f64) {
         let prior = f64::from(prior.reflectance);
+        if prior == 0.0 {
+            return (0.0, 0.0);
+        }
         let deviation = f64::from(deviation) * prior;
         let Some((slope, error)) = self.sums.slope() else { return (prior, deviation) };
         let current = f64::from(self.current.reflectance);
@@ -313,8 +316,7 @@ mod tests {
         let (samples, predicted) = scene();
         let texels = samples.taps.size() * samples.taps.size();
         let rows = |i: usize| [predicted[i], [0.0; CHANNELS]];
-        let regression =
-            Regression::new(&samples, &samples.weight, None, rows, |_| [1.0; CHANNELS]);
+        let regression = Regression::new(&samples, &samples.weight, None, rows, |i| predicted[i]);
         let config = UnshadeConfig::default().reflectance;
         let found = |limit: f32| {
             let limits = [limit; 256];
