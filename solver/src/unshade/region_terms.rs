@@ -119,8 +119,14 @@ impl RegionTerms {
                     let (error, floor) = (config.region_error * inflation, config.region_floor);
                     let posterior =
                         measured.reflectance(prior, error, floor, config.region_deviation);
-                    let limit = limits[usize::from(region)] * measured.current.reflectance;
-                    mean_below(f64::from(limit), posterior)
+                    // With contrast highlights are measured, and those predicted in shadows are too strong.
+                    let limit = limits[usize::from(region)] / uniformity;
+                    match limit.is_finite() {
+                        true => {
+                            mean_below(f64::from(limit * measured.current.reflectance), posterior)
+                        }
+                        false => posterior.0,
+                    }
                 }
             };
             let reflectance = reflectance as f32;
