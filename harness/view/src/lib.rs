@@ -43,6 +43,8 @@ struct Scene {
     panes: Vec<Pane>,
     /// The lights, by name, in which the suite relights the head.
     lights: Vec<(String, StoredLight)>,
+    /// Why one light does not describe all pictures, if so; nothing is predicted then.
+    moving_light: Option<&'static str>,
     label_names: BTreeMap<u8, String>,
     labels: Option<Stored>,
     /// For each measure the value where the colours of its errors end.
@@ -125,6 +127,7 @@ pub fn write_head(
         views: Views::write(&capture, side, folder)?,
         panes,
         lights,
+        moving_light: capture.lights.beyond_one_still_light(),
         label_names: capture.label_names.clone(),
         labels: labels.map(|map| Array::gray(&map).write(folder, "labels")).transpose()?,
         tops: all_tops.into_iter().map(|(measure, tops)| (measure, median(tops))).collect(),

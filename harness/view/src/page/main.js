@@ -158,7 +158,7 @@
     const tell = async (scroll) => {
       if (!place) return;
       const truth = scene.panes.find((pane) => pane.is_truth && pane.light) ?? scene.panes.find((pane) => pane.light);
-      const light = truth && lights.find(({ id }) => id === truth.id);
+      const light = !scene.moving_light && truth && lights.find(({ id }) => id === truth.id);
       if (light) light.picture ??= await light.read();
       const model = light && view.surroundings(head, light.picture, 0, false);
       view.told = await view.tell(part("story"), {

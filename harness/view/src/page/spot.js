@@ -172,7 +172,7 @@
       parts.push(`<h3>Observed and predicted, by angle of view</h3>${plot(observations, predicted)}
         <p class="caption">Luminance against the angle between view and normal. Line: observed. ${key}: hollow, the diffuse part; filled, with the specular part. ${light
           ? `Predicted by this page: ${escaped(light.title)}, direct light only, albedo after its one factor.`
-          : "No light is known, so nothing is predicted."}</p><div class="crops"></div>`);
+          : escaped(scene.moving_light ?? "no light is known") + "; nothing is predicted."}</p><div class="crops"></div>`);
     } else {
       parts.push("<p class=\"notice\">No training view sees this texel: its values are filled in or extrapolated.</p>");
     }
