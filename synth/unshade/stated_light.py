@@ -11,7 +11,7 @@ from typing import Any
 from .errors import CaptureError
 
 LIGHT_FRAMES = ("head", "camera")
-"""What a light can stand still with respect to."""
+"""Frames of reference in which a light can stand still."""
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ def stated_light(capture: Path) -> StatedLight:
 
 
 def light_frame_of(path: Path, document: Mapping[str, Any]) -> str:
-    """What the light stands still with, by a ``transforms.json``. Raises `CaptureError`."""
+    """The frame of reference in which the light stands still, by a ``transforms.json``. Raises `CaptureError`."""
     frame: str = document.get("light_frame", LIGHT_FRAMES[0])
     if frame not in LIGHT_FRAMES:
         raise CaptureError(f"{path}: light_frame is {frame!r}; write one of {', '.join(LIGHT_FRAMES)}")

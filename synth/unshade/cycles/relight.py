@@ -60,7 +60,7 @@ def relight(
     chart, raised = face.chart, face.surface
     surface = Surface(Mesh(raised.vertices, raised.normals, raised.uv, raised.triangles.astype(np.int64)), chart_maps)
     exposed: dict[str, lights.AnyLight] = {}
-    # Of each view and light, the name of how the light shines on the view.
+    # For each view and light, the name of the light as it is turned for the view.
     shining: dict[tuple[str, str], str] = {}
     for light in [given.light] if given else scene.lights:
         for view in views:
