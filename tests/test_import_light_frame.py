@@ -88,3 +88,12 @@ def test_methods_of_one_still_light_refuse_by_name(tmp_path: Path) -> None:
     state(frames=[frame | {"light": frame["file_path"]} for frame in frames])
     with pytest.raises(SolveError, match="frames have different lights .* but sh-lambert assumes one light"):
         require_still_light("sh-lambert", tmp_path)
+
+
+@pytest.mark.parametrize(
+    "content", ["{}", "[]", '{"frames": 3}', '{"frames": [{}]}', '{"frames": [], "light_frame": 1}']
+)
+def test_a_faulty_file_is_named(content: str, tmp_path: Path) -> None:
+    (tmp_path / "transforms.json").write_text(content)
+    with pytest.raises(CaptureError, match=r"transforms\.json: "):
+        stated_light(tmp_path)

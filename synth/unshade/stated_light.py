@@ -39,9 +39,11 @@ def stated_light(capture: Path) -> StatedLight:
         document = json.loads(path.read_text(encoding="utf-8-sig"))
     except (OSError, ValueError) as error:
         raise CaptureError(f"{path}: cannot be read: {error}") from error
+    try:
+        names = {one.get("name") or Path(one["file_path"]).stem: one.get("light") for one in document["frames"]}
+    except (AttributeError, KeyError, TypeError) as error:
+        raise CaptureError(f"{path}: has no list of frames, each with a file_path") from error
     frame = light_frame_of(path, document)
-    frames = document["frames"]
-    names = {one.get("name") or Path(one["file_path"]).stem: one.get("light") for one in frames}
     return StatedLight(frame, {name: light for name, light in names.items() if light is not None})
 
 

@@ -90,8 +90,8 @@ impl FrameLights {
         &self.frames
     }
 
-    /// The reason why one light that stands still with respect to the head does not describe all frames, with the key of
-    /// `transforms.json` that says so; none if it does.
+    /// The reason why one light that stands still with respect to the head does not describe all frames, with the key
+    /// of `transforms.json` that says so; none if it does.
     pub fn beyond_one_still_light(&self) -> Option<&'static str> {
         match (self.frame, self.groups()) {
             (LightFrame::Camera, _) => {
