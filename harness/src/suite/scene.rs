@@ -231,6 +231,27 @@ const ENVIRONMENTS: [&str; 2] = ["hdr", "exr"];
 /// Reads a face, light or rig: a table as it stands, or the file that a string names. A picture of surroundings is a
 /// light of its file's name.
 pub(super) fn resolve(from: &Path, key: &str, value: Value) -> Result<Table, SceneError> {
+    let (mut table, origin) = resolve_single(from, key, value)?;
+    if packaged::Kind::of_key(key) == packaged::Kind::Light
+        && let Some(Value::Array(groups)) = table.remove(GROUPS)
+    {
+        let single = |one| {
+            let (light, _) = resolve_single(&origin, GROUPS, one)?;
+            // A file could name itself.
+            if light.contains_key(GROUPS) {
+                let reason = "has a light that is several itself; name single lights";
+                return Err(SceneError::value(&origin, GROUPS, reason));
+            }
+            Ok(Value::Table(light))
+        };
+        let groups = groups.into_iter().map(single).collect::<Result<_, _>>()?;
+        table.insert(GROUPS.to_owned(), Value::Array(groups));
+    }
+    Ok(table)
+}
+
+/// What [`resolve`] reads but for the lights of a light that is several, and the file in which it stands.
+fn resolve_single(from: &Path, key: &str, value: Value) -> Result<(Table, PathBuf), SceneError> {
     let (mut table, origin) = match value {
         Value::Table(table) => (table, from.to_path_buf()),
         Value::String(name) if is_environment(key, &name) => {
@@ -255,13 +276,7 @@ pub(super) fn resolve(from: &Path, key: &str, value: Value) -> Result<Table, Sce
         ));
     }
     resolve_files(&origin, &mut table);
-    if packaged::Kind::of_key(key) == packaged::Kind::Light
-        && let Some(Value::Array(groups)) = table.remove(GROUPS)
-    {
-        let groups = groups.into_iter().map(|one| resolve(&origin, GROUPS, one).map(Value::Table));
-        table.insert(GROUPS.to_owned(), Value::Array(groups.collect::<Result<_, _>>()?));
-    }
-    Ok(table)
+    Ok((table, origin))
 }
 
 fn is_environment(key: &str, name: &str) -> bool {

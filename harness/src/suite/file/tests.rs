@@ -237,6 +237,19 @@ fn a_capture_in_lights_by_turns_is_a_case_that_no_other_is_relit_in() {
 }
 
 #[test]
+fn lights_by_turns_are_single_lights() {
+    let root = tempfile::tempdir().unwrap();
+    scenes(root.path());
+    let turns = "name = \"both\"\nkind = \"turns\"\nlights = [\"key.toml\", \"both.toml\"]\n";
+    write(root.path(), "lights/both.toml", turns);
+    let text = "format = 1\nname = \"m\"\nscene = \"scene.toml\"\nlights = [\"lights/both.toml\"]\n\
+                [[method]]\nname = \"oracle\"\n";
+    let path = write(root.path(), "suite.toml", text);
+    let message = Suite::open(&path).unwrap_err().to_string();
+    assert!(message.contains("both.toml") && message.contains("name single lights"), "{message}");
+}
+
+#[test]
 fn maps_are_relit_under_every_scale_unless_the_suite_names_some() {
     let root = tempfile::tempdir().unwrap();
     scenes(root.path());
