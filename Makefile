@@ -63,7 +63,7 @@ validators:
 	npm install --prefix .tools --no-save --no-audit --no-fund --silent gltf-validator@2.0.0-dev.3.10
 
 # Twelve faces: seven hours on two cores; resumes. Writes all tables into runs/, and the means of every method, light
-# and figure into docs/results.csv.
+# and figure into docs/results.csv, from which the tables of the pages are written.
 results: build
 	$(BIN)/unshade run scenes/suites/held-out.toml -o runs/held-out
 	$(BIN)/unshade run scenes/suites/held-out-lights.toml -o runs/held-out-lights
@@ -72,6 +72,7 @@ results: build
 	$(BIN)/unshade study runs/held-out runs/held-out-lights -o runs/study
 	$(BIN)/unshade table runs/held-out runs/held-out-lights -o runs/results.md
 	$(BIN)/unshade table runs/held-out runs/held-out-lights -o docs/results.csv
+	$(BIN)/python docs/tables.py
 
 # Processes take tests from one another, so that they end together.
 PYTEST = $(BIN)/python -m pytest -q -n 2 --dist worksteal
