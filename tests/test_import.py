@@ -260,11 +260,11 @@ def test_a_layout_whose_texels_have_several_places_is_refused(layout: str, captu
         assert done.returncode == 2 and "lie over each other in UV" in done.stderr
 
 
-def test_many_islands_are_a_warning(capture: Path, tmp_path: Path) -> None:
+def test_many_islands_that_are_kept_are_a_warning(capture: Path, tmp_path: Path) -> None:
     apart = lambda uv, _: uv.mean(1, keepdims=True) + 0.9 * (uv - uv.mean(1, keepdims=True))
     mesh = laid_out(capture / "mesh.obj", tmp_path / "mesh.obj", apart)
     with pytest.warns(CaptureWarning, match=r"has \d{3,} UV islands"), pytest.raises(CaptureError, match="no view 'x'"):
-        unshade.import_capture("transforms", capture, tmp_path / "out", mesh=mesh, holdout=["x"])
+        unshade.import_capture("transforms", capture, tmp_path / "out", mesh=mesh, uv="keep", holdout=["x"])
     shutil.copytree(capture, tmp_path / "capture", ignore=shutil.ignore_patterns("truth"))
     shutil.copy(mesh, tmp_path / "capture" / "mesh.obj")
     said = command("solve", tmp_path / "capture", "--solver", "mean-texture", "-o", tmp_path / "maps").stderr

@@ -7,6 +7,7 @@ pub mod backend;
 pub mod baselines;
 pub mod config;
 mod convolution;
+pub mod exposure;
 pub mod fit;
 mod maps;
 pub mod memory;

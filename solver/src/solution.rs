@@ -100,6 +100,10 @@ pub struct Record {
     /// The names of the groups of frames, each with its own light in `light/`, if there are several.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub lights: Vec<String>,
+    /// Name and gain of every training view: the factor (R, G, B) of its picture relative to the geometric mean of all;
+    /// empty unless the capture says that exposures are unknown.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub gains: Vec<(String, [f32; 3])>,
     /// Side of the textures that were solved for, texels.
     pub texture_size: usize,
     /// The number of samples of the full pictures.

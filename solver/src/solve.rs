@@ -14,7 +14,7 @@ use crate::run::error::SolveError;
 use crate::run::progress::{Callback, Options};
 use crate::run::{Extent, Run, Work};
 use crate::solution::{Record, Solution, ViewLayers};
-use crate::{paper, unshade};
+use crate::{exposure, paper, unshade};
 
 /// Runs [`solve_on`] and writes the folder `maps`. A checkpoint next to it (`<maps>.checkpoint`) lets the same call
 /// continue after an interrupt, to the same bytes. `program` identifies the program: checkpoints of other programs and
@@ -88,6 +88,8 @@ pub fn solve_on(
     progress: &mut Callback,
 ) -> Result<Solution, SolveError> {
     config.validate()?;
+    let (capture, gains) = exposure::evened(capture)?;
+    let capture = &*capture;
     if matches!(config, Config::Paper(_)) && !capture.truth.parts.is_empty() {
         return Err(SolveError::GivenToOther);
     }
@@ -128,6 +130,7 @@ pub fn solve_on(
         light_distance: results.lights.first().and_then(|light| light.distance),
         light_frame: (capture.lights.frame == LightFrame::Camera).then_some("camera"),
         lights: if capture.lights.groups() > 1 { capture.lights.names.clone() } else { vec![] },
+        gains,
         texture_size: results.texture_size,
         samples: results.samples,
         diffuse_scale: results.scales.diffuse,

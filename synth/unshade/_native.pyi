@@ -214,9 +214,10 @@ def examine_layout(
     triangles: NDArray[np.int64],
     part_of: NDArray[np.int64],
     parts: Sequence[str],
-) -> tuple[str | None, str | None, bool]:
-    """Return the fault of a UV layout and a warning, each a text or None, and whether the fault is that several of
-    ``parts``, numbered by ``part_of`` (F,), lie over each other on one page."""
+) -> tuple[str | None, str | None, bool, int]:
+    """Return the fault of a UV layout and a warning, each a text or None, whether the fault is that several of
+    ``parts``, numbered by ``part_of`` (F,), lie over each other on one page, and the number of islands that hold most
+    of the area (0 with a fault)."""
 
 def outward_turns(
     vertices: NDArray[np.float64], triangles: NDArray[np.int64], normals: NDArray[np.float64] | None = None

@@ -154,7 +154,8 @@ def export(
 ) -> list[Fidelity]:
     """Write maps as an asset of another program into the folder ``out``; returns what it loses.
 
-    The mesh is that of ``capture``, or the OBJ ``mesh``. ``bits`` are those of the normal maps, and of all
+    The mesh is that of ``capture``, or the OBJ ``mesh``; with both, ``mesh`` is the same face with other UV, such as
+    the one that was imported, and the maps are resampled onto it. ``bits`` are those of the normal maps, and of all
     maps of ``png``, whose green points where ``normal_y`` says. The list is also in ``fidelity.json``; it is
     empty without ``fidelity`` and for ``materialx`` and ``png``, which nothing here renders. Raises
     `ExportError`, `MapsError`, `CaptureError`, and `RendererError` where Blender is missing.

@@ -17,16 +17,19 @@ LIGHT_FRAMES = ("head", "camera")
 @dataclass(frozen=True)
 class StatedLight:
     """``frame`` is one of `LIGHT_FRAMES`; ``groups`` are the names of the lights of frames by their own names,
-    empty if all share one light."""
+    empty if all share one light; ``has_unknown_exposure``: each frame has unknown factors on its channels."""
 
     frame: str
     groups: Mapping[str, str]
+    has_unknown_exposure: bool = False
 
     @property
     def fault(self) -> str | None:
         """Why a method that assumes one still light cannot use the capture; None if it can."""
         if self.frame == "camera":
             return "the light moves with the camera (light_frame in transforms.json)"
+        if self.has_unknown_exposure:
+            return "exposures of frames are unknown (exposure in transforms.json)"
         if len(set(self.groups.values())) > 1:
             return "frames have different lights (light in transforms.json)"
         return None
@@ -44,7 +47,8 @@ def stated_light(capture: Path) -> StatedLight:
     except (AttributeError, KeyError, TypeError) as error:
         raise CaptureError(f"{path}: has no list of frames, each with a file_path") from error
     frame = light_frame_of(path, document)
-    return StatedLight(frame, {name: light for name, light in names.items() if light is not None})
+    groups = {name: light for name, light in names.items() if light is not None}
+    return StatedLight(frame, groups, document.get("exposure") == "unknown")
 
 
 def light_frame_of(path: Path, document: Mapping[str, Any]) -> str:

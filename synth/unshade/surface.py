@@ -99,7 +99,7 @@ def read_surface(maps: Path, capture: Path | None, mesh: Path | None, warn: Call
         found = _native.Capture(capture).mesh
         shape = Mesh(found["vertices"], found["normals"], found["uvs"], found["triangles"].astype(np.int64))
     elif mesh is not None:
-        shape = _read_mesh(mesh)
+        shape = read_shape(mesh)
     else:
         raise CaptureError(
             f"{maps}: maps have no mesh of their own; name their capture with --capture, or an OBJ with --mesh"
@@ -115,7 +115,8 @@ def read_surface(maps: Path, capture: Path | None, mesh: Path | None, warn: Call
     return surface
 
 
-def _read_mesh(path: Path) -> Mesh:
+def read_shape(path: Path) -> Mesh:
+    """Reads an OBJ with UV and one mesh. Raises `CaptureError`."""
     try:
         objects = _native.read_obj(path.read_bytes())
     except (OSError, ValueError) as error:

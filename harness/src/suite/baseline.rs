@@ -9,6 +9,7 @@ use formats::atomic::{self, Folder};
 use formats::{Maps, MapsError, picture};
 use scoring::score;
 use solver::baselines::{semantic_initialisation, unlit_view};
+use solver::exposure;
 
 use super::error::RunError;
 
@@ -59,6 +60,7 @@ impl BaselineMethod {
         atomic::refuse_overlap(maps, &[capture]).map_err(MapsError::from)?;
         let photographed = score::is_photographed(capture);
         let capture = Capture::open(capture)?;
+        let (capture, _) = exposure::evened(&capture)?;
         let made = self.maps(&capture, size)?;
         let folder = Folder::begin(maps)?;
         made.write_into(folder.path())?;

@@ -75,8 +75,9 @@ pub struct Export {
     /// asset is compared.
     #[arg(long, required_unless_present = "mesh")]
     pub capture: Option<PathBuf>,
-    /// The mesh of maps without a capture: an OBJ with UV; the asset is then compared in uniform light.
-    #[arg(long, conflicts_with = "capture")]
+    /// An OBJ with UV. Without a capture: the maps' own mesh; the asset is compared in uniform light. With one: the
+    /// same face with other UV, such as the mesh that was imported; the maps are resampled onto it.
+    #[arg(long)]
     pub mesh: Option<PathBuf>,
     /// Bits of the PNGs that hold normals, and of all maps of `png`.
     #[arg(long, default_value = "16", value_parser = bits)]

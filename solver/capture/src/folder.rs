@@ -37,6 +37,8 @@ pub struct Capture {
     pub label_names: BTreeMap<u8, String>,
     /// The light of every frame, training views first, then withheld cameras.
     pub lights: FrameLights,
+    /// Whether exposure and white balance differ between the frames by unknown factors.
+    pub has_unknown_exposure: bool,
     /// The parts of the truth that a privileged solve holds fixed; none unless [`Capture::with_truth`] read them.
     pub truth: Truth,
     hash: String,
@@ -109,6 +111,7 @@ impl Capture {
             withheld: transforms.withheld.into_iter().map(|frame| frame.camera).collect(),
             label_names: transforms.label_names,
             lights: transforms.lights,
+            has_unknown_exposure: transforms.has_unknown_exposure,
             truth: Truth::default(),
             hash: hasher.finalize().to_hex().to_string(),
         })

@@ -23,6 +23,8 @@ pub(super) struct Transforms {
     /// The transform that the writer of the file applied to all cameras, if it states one.
     pub applied: Option<Mat4>,
     pub lights: FrameLights,
+    /// Whether every frame has an unknown factor on each channel.
+    pub has_unknown_exposure: bool,
 }
 
 #[derive(Deserialize)]
@@ -38,6 +40,7 @@ struct File {
     #[serde(default)]
     applied_transform: Value,
     light_frame: Option<Value>,
+    exposure: Option<Value>,
     #[serde(flatten)]
     shared: Shared,
 }
@@ -95,6 +98,13 @@ impl Transforms {
         let all = train.iter().chain(&withheld);
         let of_frames: Vec<_> = all.map(|frame| (&frame.camera, frame.light.as_deref())).collect();
         let lights = FrameLights::new(light_frame, &of_frames, withheld.len())?;
+        let has_unknown_exposure = is_unknown(file.exposure.as_ref())?;
+        if let (true, Some(moves)) = (has_unknown_exposure, lights.beyond_one_still_light()) {
+            return Err(format!(
+                "exposure is \"unknown\", but {moves}; a change of light cannot be told from one of \
+                 exposure, so fix the camera's exposure and white balance and drop the key"
+            ));
+        }
         let mesh_path = match &file.mesh {
             Some(mesh) => inside(root, &plain(mesh)).map_err(|reason| format!("mesh: {reason}"))?,
             None if root.join(MESH).is_file() => root.join(MESH),
@@ -112,7 +122,28 @@ impl Transforms {
         }
         let applied = Vec::<Vec<f64>>::deserialize(&file.applied_transform).ok();
         let applied = applied.and_then(|rows| matrix(&rows).ok());
-        Ok(Self { mesh_path, train, withheld, label_names: file.label_names, applied, lights })
+        Ok(Self {
+            mesh_path,
+            train,
+            withheld,
+            label_names: file.label_names,
+            applied,
+            lights,
+            has_unknown_exposure,
+        })
+    }
+}
+
+/// Parses the value of `exposure`; the error is the reason alone.
+fn is_unknown(value: Option<&Value>) -> Result<bool, String> {
+    match value {
+        None => Ok(false),
+        Some(Value::String(text)) if text == "known" => Ok(false),
+        Some(Value::String(text)) if text == "unknown" => Ok(true),
+        Some(other) => Err(format!(
+            "exposure is {other}; write \"unknown\" if exposure and white balance differ between \
+             frames by unknown factors, else \"known\""
+        )),
     }
 }
 

@@ -25,6 +25,12 @@ pub enum SolveError {
         /// The method's name.
         method: &'static str,
     },
+    /// A view cannot be compared with the others.
+    #[error(
+        "view {0}: its exposure is unknown and cannot be solved for, since no other view shows enough of the surface \
+         that it shows; leave it out"
+    )]
+    Exposure(String),
     /// The capture shows nothing of the mesh.
     #[error(transparent)]
     Capture(#[from] CaptureError),

@@ -21,6 +21,7 @@ from .gltf import FILE as GLB
 from .gltf import write_gltf
 from .materialx import write_materialx
 from .mitsuba_scene import mitsuba_shapes, write_mitsuba
+from .onto_mesh import onto_mesh
 from .plain_pictures import write_pictures
 from .read_gltf import gltf_shape
 
@@ -51,8 +52,12 @@ def export(
     """Writes the asset folder; returns what it loses, as rows and as lines to print. Raises `ExportError`, `MapsError`, `CaptureError`."""
     progress(0, 1, "maps")
     surface = read_surface(maps, capture, mesh, warn)
+    if capture is not None and mesh is not None:
+        progress(0, 1, "resampling onto the mesh")
+        surface = onto_mesh(surface, capture, mesh)
     require_maps(surface, maps)
-    inputs = [*sorted(maps.glob("*.exr")), maps / "coverage.png", mesh or (capture or maps) / "mesh.obj"]
+    inputs = [*sorted(maps.glob("*.exr")), maps / "coverage.png"]
+    inputs += [file for file in (capture and capture / "mesh.obj", mesh) if file is not None]
     folder = ResumableFolder(out, f"{options} {fingerprint(__name__)} {[content_hash(path) for path in inputs]}")
     setting = setting_of(capture, surface)
     described = _write(surface, folder.path, options, setting)

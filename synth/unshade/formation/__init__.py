@@ -5,6 +5,7 @@ masks and pictures stay those of perfect pinholes, as everything under ``truth/`
 """
 
 from .face_parser import stated_labels
+from .gains import view_gain
 from .lens import Lens, camera_lens, needs_own_rendering
 from .poses import camera_model, capture_camera, stated_frame
 from .sensor import expose
@@ -18,4 +19,5 @@ __all__ = [
     "needs_own_rendering",
     "stated_frame",
     "stated_labels",
+    "view_gain",
 ]

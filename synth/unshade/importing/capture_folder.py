@@ -68,9 +68,9 @@ class CaptureWriter:
         make_folder(self._path / "images")
         _native.write_colour(self._path / image, taken.radiance)
 
-    def transforms(self, labels: Sequence[tuple[str, int]], light_frame: str) -> None:
+    def transforms(self, labels: Sequence[tuple[str, int]], light_frame: str, *, unknown_exposure: bool) -> None:
         """Writes the cameras; ``labels`` are the names and ids of label pictures, ``light_frame`` is what the light
-        stands still with."""
+        stands still with, ``unknown_exposure`` whether frames have unknown factors."""
         document: dict[str, Any] = {
             "mesh": "mesh.obj",
             "frames": self._frames,
@@ -79,6 +79,8 @@ class CaptureWriter:
         }
         if light_frame != LIGHT_FRAMES[0]:
             document["light_frame"] = light_frame
+        if unknown_exposure:
+            document["exposure"] = "unknown"
         if self._labelled:
             document["label_names"] = {str(number): name for name, number in labels}
         write_json(self._path / "transforms.json", document)

@@ -19,8 +19,8 @@ from .unwrap import unwrap
 class ChartMesh:
     """Triangles with a UV at every vertex; ``normals`` are None where the file has none.
 
-    ``verbatim`` are the file's bytes while nothing of it was changed; ``has_own_uv`` is False if its texture
-    coordinates were made here. ``parts`` are its materials (or objects)
+    ``verbatim`` are the file's bytes while nothing of it was changed; ``has_own_uv`` is False if it has no texture
+    coordinates (``uv`` is 0), or they were made here. ``parts`` are its materials (or objects)
     in words, ``part_of`` (F,) which of them each triangle is of.
     """
 
@@ -41,9 +41,17 @@ class ChartMesh:
         vertices = self.vertices @ linear.T + similarity[:3, 3]
         return replace(self, vertices=vertices, normals=normals, verbatim=None)
 
-    def layout_faults(self, used: NDArray[np.bool_] | None = None) -> tuple[str | None, str | None, bool]:
-        """The fault of the UV layout of the triangles that are ``used`` (F,), a warning, and whether
-        materials lie over each other."""
+    def unwrapped(self) -> ChartMesh:
+        """The same surface with new texture coordinates in few islands."""
+        rows, triangles, uv = unwrap(self.vertices, self.triangles)
+        normals = None if self.normals is None else self.normals[rows]
+        return replace(
+            self, vertices=self.vertices[rows], triangles=triangles, uv=uv, normals=normals, verbatim=None, has_own_uv=False
+        )
+
+    def layout_faults(self, used: NDArray[np.bool_] | None = None) -> tuple[str | None, str | None, bool, int]:
+        """The fault of the UV layout of the triangles that are ``used`` (F,), a warning, whether
+        materials lie over each other, and the number of islands that hold most of the area."""
         used = np.ones(len(self.triangles), bool) if used is None else used
         triangles, part_of = (np.ascontiguousarray(values[used]) for values in (self.triangles, self.part_of))
         return _native.examine_layout(self.vertices, self.uv, triangles, part_of, self.parts)
@@ -66,8 +74,7 @@ class ChartMesh:
 
 
 def read_mesh(path: Path, objects: tuple[str, ...] = ()) -> ChartMesh:
-    """Reads an OBJ file; of its objects those named, or all. A mesh without any texture coordinates is unwrapped.
-    Raises `CaptureError`."""
+    """Reads an OBJ file; of its objects those named, or all. Raises `CaptureError`."""
     if path.suffix.lower() != ".obj":
         raise CaptureError(f"{path}: is not an OBJ file; export the mesh as OBJ with its texture coordinates")
     try:
@@ -104,7 +111,7 @@ def read_mesh(path: Path, objects: tuple[str, ...] = ()) -> ChartMesh:
     joined = np.concatenate(vertices)
     if not np.isfinite(joined).all():
         raise CaptureError(f"{path}: has a vertex that is not finite; export the mesh again")
-    mesh = ChartMesh(
+    return ChartMesh(
         joined,
         np.concatenate(triangles),
         np.concatenate(uvs),
@@ -114,11 +121,6 @@ def read_mesh(path: Path, objects: tuple[str, ...] = ()) -> ChartMesh:
         np.concatenate(part_of),
         has_own_uv,
     )
-    if has_own_uv:
-        return mesh
-    rows, triangles, uv = unwrap(mesh.vertices, mesh.triangles)
-    normals = None if mesh.normals is None else mesh.normals[rows]
-    return replace(mesh, vertices=joined[rows], triangles=triangles, uv=uv, normals=normals, verbatim=None)
 
 
 def smooth_normals(vertices: NDArray[np.float64], triangles: NDArray[np.int64]) -> NDArray[np.float64]:

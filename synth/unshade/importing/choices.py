@@ -9,6 +9,7 @@ from ..errors import CaptureError
 from ..stated_light import LIGHT_FRAMES
 from .pictures import check_curve
 from .placement import PLACES, UNITS
+from .uv_choice import UVS
 
 HULL = "hull"
 """The mesh that is carved from the masks."""
@@ -23,6 +24,7 @@ class Choices:
 
     mesh: Path | str | None = None
     objects: tuple[str, ...] = ()
+    uv: str = "auto"
     pictures: Path | None = None
     masks: Path | str | None = None
     labels: Path | None = None
@@ -30,6 +32,8 @@ class Choices:
     curve: str = "auto"
     brackets: int = 1
     even_exposure: bool = False
+    unknown_exposure: bool = False
+    frames: int | None = None
     holdout: int | tuple[str, ...] | None = None
     shrink: int = 1
     unit: str | None = None
@@ -47,11 +51,19 @@ class Choices:
             raise CaptureError(f"unit {self.unit!r} is unknown; there are {', '.join(UNITS)}")
         if self.light_frame is not None and self.light_frame not in LIGHT_FRAMES:
             raise CaptureError(f"light_frame {self.light_frame!r} is unknown; there are {', '.join(LIGHT_FRAMES)}")
+        if self.uv not in UVS:
+            raise CaptureError(f"uv {self.uv!r} is unknown; there are {', '.join(UVS)}")
         if self.place not in PLACES:
             raise CaptureError(f"place {self.place!r} is unknown; there are {', '.join(PLACES)}")
         for name, value, maximum in (("brackets", self.brackets, 32), ("shrink", self.shrink, 64)):
             if not 1 <= value <= maximum:
                 raise CaptureError(f"{name} is {value}; it must be from 1 to {maximum}")
+        if self.frames is not None and self.frames < 3:
+            raise CaptureError(f"frames is {self.frames}; a capture needs at least three")
+        if self.unknown_exposure and (self.even_exposure or self.brackets > 1):
+            raise CaptureError(
+                "unknown_exposure is for exposures that no file states; leave it out, or even_exposure and brackets"
+            )
         if isinstance(self.holdout, int) and self.holdout < 2:
             raise CaptureError(f"holdout is {self.holdout}; every second view is the most that can be withheld")
         if self.labels is not None and self.parser is None:

@@ -16,6 +16,7 @@ from .parser_labels import PARSERS
 from .pictures import CURVES
 from .placement import PLACES, UNITS
 from .programs import FORMATS
+from .uv_choice import UVS
 
 _DESCRIPTION = "Import photographs, cameras and a mesh of other programs as a capture folder."
 _EPILOG = "unshade import maps --help: maps of other methods. docs/photographs.md describes the formats, the assumptions, and what to do if cameras do not fit."
@@ -64,6 +65,12 @@ def _parser() -> argparse.ArgumentParser:
         help="an object of the mesh that is the face; may be repeated",
     )
     parser.add_argument(
+        "--uv",
+        choices=UVS,
+        default="auto",
+        help="keep the mesh's UV, or unwrap it anew; auto: anew if it has none, or a hundred islands or more",
+    )
+    parser.add_argument(
         "--pictures", type=Path, metavar="DIR", help="the photographs' folder, if the files do not state it"
     )
     parser.add_argument(
@@ -80,6 +87,14 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--curve", default="auto", help=f"the photographs' transfer curve: {', '.join(CURVES)}")
     parser.add_argument("--brackets", type=int, default=1, metavar="N", help="exposures per view, in consecutive files")
     parser.add_argument("--even-exposure", action="store_true", help="divide by the exposure in EXIF")
+    parser.add_argument(
+        "--unknown-exposure",
+        action="store_true",
+        help="exposure and white balance changed from frame to frame: a solve estimates them",
+    )
+    parser.add_argument(
+        "--frames", type=int, metavar="N", help="choose N frames of a video: sharp ones, from all sides of the head"
+    )
     parser.add_argument(
         "--holdout",
         type=_holdout,

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from ..errors import CaptureError
 from .pinhole import Pinhole
+from .source import Matrix
 
 _SIDE = 512
 """Longest side (pixels) of the small pictures that are cut; masks are as coarse."""
@@ -16,13 +17,18 @@ _SURE = 0.35
 """Radius of the disc that is taken for the head, in radii of the ball."""
 
 
+def looked_at(cameras: list[Matrix]) -> NDArray[np.float64]:
+    """The point (3,) that is nearest to the optical axes of cameras (camera to world)."""
+    eyes = np.array([camera[:3, 3] for camera in cameras])
+    ways = -np.array([camera[:3, 2] for camera in cameras])
+    across = np.eye(3) - ways[:, :, None] * ways[:, None, :]
+    return np.linalg.lstsq(across.sum(0), np.einsum("nij,nj->i", across, eyes), rcond=None)[0]
+
+
 def discs_of_common_ball(cameras: list[Pinhole]) -> list[tuple[float, float, float]]:
     """The disc (column, row, radius; pixels) of each picture that shows the largest ball around the point that the
     cameras look at, with all of it in every frame. Raises `CaptureError` if cameras do not look at one place."""
-    eyes = np.array([camera.camera_to_world[:3, 3] for camera in cameras])
-    ways = -np.array([camera.camera_to_world[:3, 2] for camera in cameras])
-    across = np.eye(3) - ways[:, :, None] * ways[:, None, :]
-    centre = np.linalg.lstsq(across.sum(0), np.einsum("nij,nj->i", across, eyes), rcond=None)[0]
+    centre = looked_at([camera.camera_to_world for camera in cameras])
     places, radii = [], []
     for camera in cameras:
         x, y, z = (centre - camera.camera_to_world[:3, 3]) @ camera.camera_to_world[:3, :3]

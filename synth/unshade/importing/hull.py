@@ -1,4 +1,4 @@
-"""A mesh where there is none: the visual hull of the masks (Laurentini 1994), unwrapped.
+"""A mesh where there is none: the visual hull of the masks (Laurentini 1994).
 
 The hull is the largest shape whose silhouettes lie within all masks. Its field is the least, over the views, of a
 point's signed distance to the mask's outline, in the unit of the source, so that marching cubes meets the outline
@@ -18,7 +18,6 @@ from ..errors import CaptureError
 from ..vectors import unit
 from .chart_mesh import ChartMesh, smooth_normals
 from .detective import Evidence
-from .unwrap import unwrap
 
 Points = NDArray[np.float64]
 
@@ -32,7 +31,7 @@ _LEAST_VIEWS = 3
 
 
 def carve(evidence: list[Evidence]) -> ChartMesh:
-    """Returns the visual hull of views with masks, with normals and texture coordinates, in the source's unit.
+    """Returns the visual hull of views with masks, with normals and without texture coordinates, in the source's unit.
 
     Raises `CaptureError` if there are fewer than three informative masks, or nothing lies within all of them.
     """
@@ -57,9 +56,9 @@ def carve(evidence: list[Evidence]) -> ChartMesh:
     vertices = _smoothed(vertices, triangles)
     if len(triangles) > _TRIANGLES:
         vertices, triangles, *_ = igl.qslim(vertices, triangles, _TRIANGLES)
-    rows, corners, uv = unwrap(vertices, triangles)
-    normals = unit(smooth_normals(vertices, triangles))[rows]
-    return ChartMesh(vertices[rows], corners, uv, normals, None, ("hull",), np.zeros(len(corners), np.int64))
+    normals, none = unit(smooth_normals(vertices, triangles)), np.zeros((len(vertices), 2))
+    part_of = np.zeros(len(triangles), np.int64)
+    return ChartMesh(vertices, triangles.astype(np.int64), none, normals, None, ("hull",), part_of, has_own_uv=False)
 
 
 class _View:

@@ -91,8 +91,15 @@ class LightMotion:
         """Whether views differ more than by their light: photographs are not where their cameras and the mesh are."""
         return self.own_lights > _DISAGREES
 
-    def warning(self, light_frame: str) -> str | None:
-        """The fault in a sentence; None without one. ``light_frame`` is what the light is said to stand still with."""
+    def warning(self, light_frame: str, *, fits: bool = False) -> str | None:
+        """The fault in a sentence; None without one. ``light_frame`` is what the light is said to stand still with,
+        ``fits`` whether silhouettes overlap the masks well."""
+        if self.disagrees and fits:
+            return (
+                f"one place of the mesh differs by {self.own_lights:.0%} between views whatever their light, although "
+                "silhouettes fit the masks: the surface is glossier than skin (metal, varnish, water), the mesh lacks "
+                "detail, or photographs of alike outlines are exchanged"
+            )
         if self.disagrees:
             return (
                 f"one place of the mesh differs by {self.own_lights:.0%} between views whatever their light, so "

@@ -103,7 +103,8 @@ class Source:
     ``whole_folders``: whether the program was given every photograph of a folder.
     ``elsewhere`` is where the cameras would be if the mesh lies in the other of two coordinate systems
     that the file speaks of: a name, what it would mean, and the similarity of the cameras' world.
-    ``light_frame`` is what the light stands still with.
+    ``light_frame`` is what the light stands still with; ``unknown_exposure``: each view has unknown factors on its
+    channels. ``vertices`` (V, 3) take the place of those of the mesh's file, line by line.
     """
 
     origin: Path
@@ -119,6 +120,8 @@ class Source:
     left_out: tuple[tuple[str, str], ...] = ()
     whole_folders: bool = False
     light_frame: str = LIGHT_FRAMES[0]
+    unknown_exposure: bool = False
+    vertices: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
         if not self.views:

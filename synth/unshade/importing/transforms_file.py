@@ -48,7 +48,7 @@ class _Frames:
 
 def read_transforms(path: Path) -> Source:
     """Reads the file, or the folder that holds it or the files of a split. Raises `CaptureError`."""
-    parts = [_frames(file) for file in _files(path)]
+    parts = [_frames(file) for file in transforms_files(path)]
     paths = [picture for part in parts for picture in part.pictures]
     names = [str(frame.get("name") or "") for part in parts for frame in part.frames]
     if not all(names) or frame_names(names) != names:
@@ -74,11 +74,13 @@ def read_transforms(path: Path) -> Source:
         elsewhere=elsewhere,
         label_names=_label_names(first.path, first.document.get("label_names")),
         light_frame=light_frame_of(first.path, first.document),
+        unknown_exposure=first.document.get("exposure") == "unknown",
         assumed=_not_read(first.path, parts),
     )
 
 
-def _files(path: Path) -> list[Path]:
+def transforms_files(path: Path) -> list[Path]:
+    """The file that ``path`` is or holds, or the files of a split. Raises `CaptureError`."""
     if not path.is_dir():
         return [path]
     split = [path / name for name in _SPLIT if (path / name).is_file()]
@@ -96,7 +98,7 @@ def _not_read(path: Path, parts: list[_Frames]) -> tuple[str, ...]:
 
 
 def _frames(path: Path) -> _Frames:
-    document = _document(path)
+    document = read_document(path)
     listed = document.get("frames")
     if not isinstance(listed, list) or not all(isinstance(frame, dict) for frame in listed):
         raise CaptureError(f"{path}: has no list of frames; export the cameras as nerfstudio or instant-ngp do")
@@ -118,7 +120,8 @@ def _once(views: list[SourceView], withheld: list[str]) -> tuple[list[SourceView
     return kept, [name for name in withheld if name in names]
 
 
-def _document(path: Path) -> dict[str, Any]:
+def read_document(path: Path) -> dict[str, Any]:
+    """The table of a file. Raises `CaptureError`."""
     try:
         document = json.loads(path.read_bytes().decode("utf-8-sig"))
     except OSError as error:
@@ -171,7 +174,7 @@ def _view(path: Path, document: Mapping[str, Any], frame: Mapping[str, Any], nam
     return SourceView(
         name=name,
         stated=f"frame {file_path!r} of {path.name}",
-        picture=_picture(path, file_path),
+        picture=picture_file(path, file_path),
         camera_to_world=moved(
             undo, rigid(_matrix(path, f"transform_matrix of frame {name!r}", frame.get("transform_matrix")))
         ),
@@ -291,7 +294,7 @@ def _beside(path: Path, name: str) -> Path:
     return path.parent / name.replace("\\", "/")
 
 
-def _picture(path: Path, file_path: str) -> Path:
+def picture_file(path: Path, file_path: str) -> Path:
     """The picture's file; a name without an ending takes the one that is there."""
     named = _beside(path, file_path)
     if named.is_file():

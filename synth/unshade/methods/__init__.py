@@ -27,7 +27,7 @@ def require_still_light(name: str, capture: Path) -> None:
     the face in lights of their own."""
     fault = stated_light(capture).fault
     if name in PASSIVE and fault is not None:
-        raise SolveError(f"{fault}, but {name} assumes one light that stands still; use unshade")
+        raise SolveError(f"{fault}, but {name} assumes one light that stands still and equal exposures; use unshade")
 
 
 def method(name: str, settings: dict[str, Any]) -> Callable[..., Any]:

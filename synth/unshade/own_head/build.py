@@ -101,7 +101,7 @@ def _check_uv(
     names = [name for piece in pieces for name in piece.parts]
     starts = np.cumsum([0, *(len(piece.parts) for piece in pieces[:-1])])
     part_of = np.concatenate([piece.part_of + first for piece, first in zip(pieces, starts)])[with_area]
-    fault, warning, _ = _native.examine_layout(points, uv, triangles, part_of, names)
+    fault, warning, *_ = _native.examine_layout(points, uv, triangles, part_of, names)
     if fault is not None:
         raise FaceError(f"{head.mesh}: {fault}")
     if warning is not None:

@@ -111,6 +111,10 @@ class Capture:
         }
         if self.scene.rig.light_frame != "head":
             document["light_frame"] = self.scene.rig.light_frame
+        if self.scene.formation.hides_exposure:
+            document["exposure"] = "unknown"
+            gains = {c.name: formation.view_gain(c, self.scene).tolist() for c in self.cameras if c.train}
+            write_json(self.truth / "gains.json", gains)
         if not self.scene.labels.omit:
             document["label_names"] = {int(label): label.name.lower() for label in Label if label}
         write_json(self.path / "transforms.json", document)
@@ -169,7 +173,8 @@ class Capture:
             report = self.meter.begin(f"view {camera.name} through its lens")
             shared = seed_of("photograph", self.scene.render.seed)
             taken = shots.layers(self._own(camera), self.real[camera.name], seed, shared, report, lens)
-        return formation.expose(taken.total, self.scene.formation, seed)
+        gained = taken.total * formation.view_gain(camera, self.scene).astype(np.float32)
+        return formation.expose(gained, self.scene.formation, seed)
 
     def _write_relit(self, shots: Shots, light: Light) -> None:
         # For readers that light other maps: no score uses it.

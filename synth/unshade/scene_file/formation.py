@@ -52,6 +52,17 @@ class Formation:
     pose_noise_mm: float = real(0.0, 0, 100)
     """Error of the stated poses: standard deviation of the shift along each camera axis."""
 
+    gain_stops: float = real(0.0, 0, 4)
+    """Automatic exposure: standard deviation, in powers of two, of a factor on each training picture that is stated
+    nowhere; the capture says that exposures are unknown."""
+    white_balance_stops: float = real(0.0, 0, 2)
+    """Automatic white balance: the same of the red and of the blue channel beside it."""
+
+    @property
+    def hides_exposure(self) -> bool:
+        """Whether training pictures have unknown factors."""
+        return self.gain_stops > 0 or self.white_balance_stops > 0
+
     def to_table(self) -> dict[str, Any]:
         """Keys that differ from the defaults, with their values, as the scene file has them."""
         return changes(self)

@@ -30,12 +30,15 @@ pub(super) fn score(
     relit: Option<&Path>,
 ) -> Result<Scores, ScoreError> {
     let frames = Frame::of(capture, withheld(capture)?)?;
+    let own_gains = transforms(capture)?["exposure"] == "unknown";
     let photographs = capture.join("images");
     let findings = check(maps, Some(capture))?;
-    let mut rows = pictures::photograph_rows(&frames, &photographs, &maps.join("views"), None)?;
+    let rows_of = |folder: &Path, light| {
+        pictures::photograph_rows(&frames, &photographs, folder, light, own_gains)
+    };
+    let mut rows = rows_of(&maps.join("views"), None)?;
     if let Some(relit) = relit {
-        let folder = relit.join("none").join(FOUND_LIGHT);
-        rows.extend(pictures::photograph_rows(&frames, &photographs, &folder, Some(FOUND_LIGHT))?);
+        rows.extend(rows_of(&relit.join("none").join(FOUND_LIGHT), Some(FOUND_LIGHT))?);
     }
     if rows.is_empty() && !maps.join("diffuse_albedo.exr").is_file() {
         return Err(ScoreError::Nothing(maps.to_path_buf()));
@@ -48,7 +51,7 @@ pub(super) fn score(
         skin_tone: None,
         light: FOUND_LIGHT.to_owned(),
         solver: solver_name(maps)?,
-        protocol: Protocol::of_photographs(),
+        protocol: Protocol::of_photographs(own_gains),
         inputs: Inputs {
             capture: hash(capture)?,
             maps: hash(maps)?,
@@ -62,12 +65,16 @@ pub(super) fn score(
     })
 }
 
-/// The names of the withheld frames, whose pictures are `images/<name>.exr`.
-pub(super) fn withheld(capture: &Path) -> Result<Vec<String>, ScoreError> {
+/// The content of `transforms.json`.
+fn transforms(capture: &Path) -> Result<Value, ScoreError> {
     let path = capture.join("transforms.json");
     let bytes = fs::read(&path).map_err(|error| ScoreError::io(&path, error))?;
-    let document: Value =
-        serde_json::from_slice(&bytes).map_err(|error| ScoreError::text(&path, error))?;
+    serde_json::from_slice(&bytes).map_err(|error| ScoreError::text(&path, error))
+}
+
+/// The names of the withheld frames, whose pictures are `images/<name>.exr`.
+pub(super) fn withheld(capture: &Path) -> Result<Vec<String>, ScoreError> {
+    let document = transforms(capture)?;
     let listed = document["test_filenames"].as_array().into_iter().flatten();
     let stem = |name: &Value| {
         let stem = PathBuf::from(name.as_str()?);

@@ -72,10 +72,11 @@ pub(super) fn view_rows(
     if !views.is_dir() {
         return Ok(Vec::new());
     }
-    let truth = true_folder(capture, light)?;
+    let true_folder = true_folder(capture, light)?;
     let subjects = ["view", "view_diffuse_layer", "view_specular_layer"];
     let heading = Heading { subject: "view", light: None, scale: "none", label: None };
-    compare(frames, &views, &truth, heading, subjects, highlights)
+    let (found, truths) = (read(frames, &views, INCOMPLETE)?, read(frames, &true_folder, truth::AGAIN)?);
+    compare(frames, &found, &truths, heading, subjects, highlights)
 }
 
 /// Rows of the relit pictures in every light, as they are and after the global factor; none of a
@@ -93,10 +94,11 @@ pub(super) fn relit_rows(
             return Ok(Vec::new());
         }
         let subjects = ["relit", "relit_diffuse_layer", "relit_specular_layer"];
-        let truth = true_folder(capture, light)?;
+        let truths = read(frames, &true_folder(capture, light)?, truth::AGAIN)?;
+        let found = read(frames, &folder, INCOMPLETE)?;
         let light = Some(light.as_str());
         let heading = Heading { subject: "relit", light, scale, label: None };
-        compare(frames, &folder, &truth, heading, subjects, highlights)
+        compare(frames, &found, &truths, heading, subjects, highlights)
     };
     let jobs: Vec<_> =
         lights.iter().flat_map(|light| ["none", "global"].map(|scale| (light, scale))).collect();
@@ -105,40 +107,52 @@ pub(super) fn relit_rows(
 }
 
 /// Rows of pictures in `folder` against photographs: a method's views, or its maps relit in the light
-/// that it found; none if there is no such folder.
+/// that it found; none if there is no such folder. `own_gains`: each picture has its photograph's exposure.
 pub(super) fn photograph_rows(
     frames: &[Frame],
     photographs: &Path,
     folder: &Path,
     light: Option<&str>,
+    own_gains: bool,
 ) -> Result<Vec<Row>, ScoreError> {
     if !folder.is_dir() {
         return Ok(Vec::new());
     }
     let subject = if light.is_some() { "relit" } else { "view" };
     let heading = Heading { subject, light, scale: "none", label: None };
-    compare(frames, folder, photographs, heading, [subject, "", ""], Highlights::Alike)
+    let mut found = read(frames, folder, INCOMPLETE)?;
+    let truths = read(frames, photographs, truth::AGAIN)?;
+    if own_gains {
+        for ((frame, found), truth) in frames.iter().zip(&mut found).zip(&truths) {
+            found.scale_to(truth, frame.region.pixels());
+        }
+    }
+    compare(frames, &found, &truths, heading, [subject, "", ""], Highlights::Alike)
 }
 
 fn true_folder(capture: &Path, light: &str) -> Result<PathBuf, ScoreError> {
     present(truth::folder(capture)?.join("relit").join(light), truth::AGAIN)
 }
 
+fn read(
+    frames: &[Frame],
+    folder: &Path,
+    fix: &'static str,
+) -> Result<Vec<Render>, ScoreError> {
+    frames.iter().map(|frame| frame.read(folder, fix)).collect()
+}
+
 /// Rows of the whole pictures and of both layers, where every frame has them.
 fn compare(
     frames: &[Frame],
-    folder: &Path,
-    truth: &Path,
+    found: &[Render],
+    truths: &[Render],
     heading: Heading,
     subjects: [&'static str; 3],
     highlights: Highlights,
 ) -> Result<Vec<Row>, ScoreError> {
-    let read = |folder, fix| -> Result<Vec<Render>, ScoreError> {
-        frames.iter().map(|frame| frame.read(folder, fix)).collect()
-    };
-    let (found, truths) = (read(folder, INCOMPLETE)?, read(truth, truth::AGAIN)?);
     let mut floors = Floors::new();
-    for ((frame, found), truth) in frames.iter().zip(&found).zip(&truths) {
+    for ((frame, found), truth) in frames.iter().zip(found).zip(truths) {
         // A relit picture without a variance has noise of unknown size; a view has none.
         let unknown = heading.subject == "relit" && found.variance.is_none();
         if let (Some(total), Some(variance), false) = (&truth.total, &truth.variance, unknown) {
@@ -162,8 +176,8 @@ fn compare(
     for (subject, (part, metrics)) in subjects.into_iter().zip(parts) {
         let compared: Option<Vec<(&Frame, &Picture, &Picture)>> = frames
             .iter()
-            .zip(&found)
-            .zip(&truths)
+            .zip(found)
+            .zip(truths)
             .map(|((frame, found), truth)| {
                 Some((frame, part(found).as_ref()?, part(truth).as_ref()?))
             })
@@ -183,11 +197,11 @@ fn compare(
     }
     // Photographs have no layers, and along a silhouette what lies behind the face.
     if !subjects[1].is_empty() {
-        all.extend(silhouette_rows(frames, &found, &truths, heading)?);
+        all.extend(silhouette_rows(frames, found, truths, heading)?);
     }
-    all.extend(unbiased_rows(frames, &found, &truths, heading)?);
+    all.extend(unbiased_rows(frames, found, truths, heading)?);
     if heading.scale == "none" {
-        all.extend(compatible_rows(frames, &found, &truths, heading)?);
+        all.extend(compatible_rows(frames, found, truths, heading)?);
     }
     Ok(all)
 }

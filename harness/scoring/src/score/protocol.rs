@@ -53,10 +53,17 @@ impl Protocol {
         self
     }
 
-    /// The protocol of captures without a truth.
-    pub fn of_photographs() -> Self {
-        let statements = PHOTOGRAPHS.map(str::to_owned).to_vec();
-        Self { id: "unshade-photographs-1".to_owned(), statements }
+    /// The protocol of captures without a truth, whose exposures may be unknown.
+    pub fn of_photographs(has_unknown_exposure: bool) -> Self {
+        let mut statements = PHOTOGRAPHS.map(str::to_owned).to_vec();
+        let mut id = "unshade-photographs-1".to_owned();
+        if has_unknown_exposure {
+            id.push_str(" own-gains");
+            statements.push(
+                "own-gains: the exposures of the photographs are unknown, so that every picture is scaled by one factor per frame and channel, k = <p,g>/<p,p> on linear values over mask-e5; these scores do not compare with scores of known exposures.".to_owned(),
+            );
+        }
+        Self { id, statements }
     }
 }
 

@@ -63,6 +63,28 @@ impl Render {
         Ok(render)
     }
 
+    /// Multiplies each channel by the factor that fits the totals over `pixels` best: k = <p,g>/<p,p>.
+    pub fn scale_to(&mut self, truth: &Self, pixels: &[usize]) {
+        let (Some(found), Some(truth)) = (&self.total, &truth.total) else { return };
+        let factor = |channel: usize| {
+            let dot = |a: &Picture, b: &Picture| -> f64 {
+                let at = |pixel: &usize| 3 * pixel + channel;
+                pixels.iter().map(|p| f64::from(a.data[at(p)]) * f64::from(b.data[at(p)])).sum()
+            };
+            let own = dot(found, found);
+            if own > 0.0 { (dot(found, truth) / own) as f32 } else { 1.0 }
+        };
+        let factors = [0, 1, 2].map(factor);
+        for part in [&mut self.total, &mut self.diffuse, &mut self.specular, &mut self.half] {
+            for pixel in part.iter_mut().flat_map(|part| part.data.chunks_exact_mut(3)) {
+                pixel.iter_mut().zip(factors).for_each(|(value, factor)| *value *= factor);
+            }
+        }
+        for pixel in self.variance.iter_mut().flat_map(|part| part.data.chunks_exact_mut(3)) {
+            pixel.iter_mut().zip(factors).for_each(|(value, factor)| *value *= factor * factor);
+        }
+    }
+
     fn require_finite(&mut self, path: &Path) -> Result<(), ScoreError> {
         for part in self.parts() {
             part.require_finite(path, &["R", "G", "B"])?;

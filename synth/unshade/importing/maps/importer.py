@@ -105,6 +105,8 @@ class _Import:
         self.deviations = read_deviations(statement, self.codes)
         self.mesh_file = mesh or _mesh_in(folder, statement)
         self.theirs = read_mesh(self.mesh_file, objects)
+        if not self.theirs.has_own_uv:
+            raise MapsError(f"{self.mesh_file}: has no texture coordinates; name the mesh that the maps were made for")
         self.alignment = Alignment(np.eye(4), "as it is", 0.0)
         uv = self.theirs.uv
         if uv.min() < -1e-4 or uv.max() > 1 + 1e-4:
@@ -138,7 +140,7 @@ class _Import:
         used = np.zeros(len(self.theirs.triangles), bool)
         used[trial.triangle[trial.found]] = True
         # Mirrored halves are a template's choice; of two pages one has other textures than those that are read.
-        fault, _, pages = self.theirs.layout_faults(used)
+        fault, _, pages, _ = self.theirs.layout_faults(used)
         if fault is not None and pages:
             raise MapsError(f"{self.mesh_file}: {fault} (object)")
         flight = Preflight(self.statement, self.codes, layouts, trial, self._witness(trial), apply=apply)
