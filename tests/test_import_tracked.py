@@ -34,7 +34,9 @@ def tracked(folder: Path, mouth_mm: tuple[float, ...] = (0.0,) * len(AZIMUTHS)) 
     quads = [[int(corner.split("/")[0]) for corner in line.split()[1:]] for line in lines if line[:2] == "f "]
     # One vertex in each place, as a tracker's mesh has them.
     places, place = np.unique(points.round(7), axis=0, return_inverse=True)
-    triangles = [[place.ravel()[quad[k] - 1] + 1 for k in corners] for quad in quads for corners in ((0, 1, 2), (0, 2, 3))]
+    triangles = [
+        [place.ravel()[quad[k] - 1] + 1 for k in corners] for quad in quads for corners in ((0, 1, 2), (0, 2, 3))
+    ]
     triangles = [t for t in triangles if len(set(t)) == 3]
     (folder / "meshes").mkdir()
     still = np.eye(4)
@@ -105,7 +107,7 @@ def test_a_template_gives_its_uv(tmp_path: Path) -> None:
     lines = (tmp_path / "video" / "meshes" / "00002.obj").read_text().splitlines()
     count = sum(line[0] == "v" for line in lines)
     # Another pose of the mesh, with a UV for every corner of every triangle.
-    template, corner = [line for line in lines if line[0] == "v"], 0
+    template = [line for line in lines if line[0] == "v"]
     faces = [line.split()[1:] for line in lines if line[0] == "f"]
     side = int(np.ceil(np.sqrt(len(faces))))
     for number, face in enumerate(faces):
@@ -119,7 +121,9 @@ def test_a_template_gives_its_uv(tmp_path: Path) -> None:
     shapes = [read_mesh(tmp_path / name / "mesh.obj") for name in ("plain", "kept")]
     triangles = [np.sort(shape.vertices[shape.triangles], axis=1) for shape in shapes]
     np.testing.assert_allclose(*triangles, atol=1e-6)
-    (tmp_path / "other.obj").write_text("\n".join(line for line in template if not line.startswith(f"v {count}")) + "\nv 0 0 0\n")
+    (tmp_path / "other.obj").write_text(
+        "\n".join(line for line in template if not line.startswith(f"v {count}")) + "\nv 0 0 0\n"
+    )
     with pytest.raises(CaptureError, match="vertices, but the tracked meshes"):
         imported(tmp_path / "video", tmp_path / "x", mesh=tmp_path / "other.obj")
 

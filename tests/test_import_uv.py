@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 import painted_capture
 import pytest
-from conftest import unshade as command
 
 import unshade
+from conftest import unshade as command
 from unshade.errors import CaptureError, MapsError
 from unshade.exporting.onto_mesh import onto_mesh
 from unshade.face.texels import rasterise

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -10,9 +11,10 @@ import cv2
 import numpy as np
 import painted_capture
 import pytest
-from conftest import unshade as command
 
 import unshade
+from conftest import CASE
+from conftest import unshade as command
 from unshade.errors import CaptureError, SolveError
 from unshade.files.pictures import read_rgb, write_exr
 from unshade.importing.frame_choice import chosen_frames
@@ -94,10 +96,6 @@ def imported_again(capture: Path, out: Path) -> dict[str, Any]:
 
 def test_gains_of_a_rendered_capture_are_found(tiny_run: Path, tmp_path: Path) -> None:
     """Skin in studio light with highlights, four views: each channel's gain to 3 %, with a rest of 1 % on average."""
-    import shutil
-
-    from conftest import CASE
-
     capture = tmp_path / "capture"
     shutil.copytree(tiny_run / "captures" / CASE, capture)
     document = json.loads((capture / "transforms.json").read_text()) | {"exposure": "unknown"}
@@ -113,3 +111,28 @@ def test_gains_of_a_rendered_capture_are_found(tiny_run: Path, tmp_path: Path) -
     assert [name for name, _ in found] == names
     error = np.log(np.array([gain for _, gain in found])) - np.log(gains / np.exp(np.log(gains).mean(0)))
     assert np.abs(error).max() < 0.03 and np.abs(error).mean() < 0.01, error
+
+
+def test_a_withheld_photograph_counts_after_its_own_gain(photographs: Path, tmp_path: Path) -> None:
+    capture, views = tmp_path / "capture", tmp_path / "maps" / "views"
+    shutil.copytree(photographs, capture)
+    unshade.Maps(diffuse_albedo=np.full((64, 64, 3), 0.5, np.float32)).write(tmp_path / "maps")
+    views.mkdir()
+    (name,) = (Path(file).stem for file in json.loads((capture / "transforms.json").read_text())["test_filenames"])
+    seen = read_rgb(capture / "images" / f"{name}.exr")
+    # Another exposure and white balance, and an error of a tenth on every other row.
+    wrong = seen * (1 + 0.1 * (np.arange(len(seen)) % 2)[:, None, None])
+    write_exr(views / f"{name}.exr", {"": (wrong * [0.3, 0.5, 0.8]).astype(np.float32)})
+
+    def score() -> tuple[str, float]:
+        scores = unshade.score(capture, tmp_path / "maps")
+        value = scores.value(subject="view", metric="psnr_srgb", scale="none")
+        assert value is not None
+        return scores["protocol"]["id"], value
+
+    known, low = score()
+    document = json.loads((capture / "transforms.json").read_text()) | {"exposure": "unknown"}
+    (capture / "transforms.json").write_text(json.dumps(document))
+    unknown, high = score()
+    assert known == "unshade-photographs-1" and unknown == "unshade-photographs-1 own-gains"
+    assert low < 20 and 30 < high < 60

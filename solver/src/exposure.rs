@@ -7,12 +7,16 @@
 //!
 //! Both are fitted by least squares with Tukey's weights, which reject highlights and errors of registration. The gauge
 //! is a mean of 0 of the logarithms over the views: the exposure of the capture is the geometric mean of theirs.
+//!
+//! Highlights move with the view, and add a few percent of the diffuse radiance everywhere. So a solve estimates the gains
+//! twice: from the pictures, then without the highlights that a fast solve of the evened pictures predicts.
 
 use std::borrow::Cow;
 
 use capture::gbuffer::{Atlas, GBuffer};
 use capture::projection::{Projection, per_texel};
-use capture::{Capture, View};
+use capture::{Capture, Mesh, View};
+use formats::picture::Picture;
 
 use crate::run::error::SolveError;
 
@@ -40,25 +44,58 @@ pub fn evened(capture: &Capture) -> Result<(Cow<'_, Capture>, Vec<(String, Gain)
     if !capture.has_unknown_exposure {
         return Ok((Cow::Borrowed(capture), vec![]));
     }
-    let gains = solve(capture)?;
+    let views: Vec<View> = capture.train.iter().map(small).collect();
+    let gains = solve(&capture.mesh, &views)?;
+    Ok((Cow::Owned(divided(capture, &capture.train, &gains)), named(capture, &gains)))
+}
+
+/// [`evened`] with gains that are estimated again without the highlights (R, G, B) that `highlights_of` predicts for every
+/// training view of a capture with small, evened pictures.
+pub(crate) fn evened_without_highlights<'a>(
+    capture: &'a Capture,
+    highlights_of: impl FnOnce(&Capture) -> Result<Vec<Picture>, SolveError>,
+) -> Result<(Cow<'a, Capture>, Vec<(String, Gain)>), SolveError> {
+    if !capture.has_unknown_exposure {
+        return Ok((Cow::Borrowed(capture), vec![]));
+    }
+    let views: Vec<View> = capture.train.iter().map(small).collect();
+    let mut gains = solve(&capture.mesh, &views)?;
+    let mut even = divided(capture, &views, &gains);
+    for (view, highlights) in even.train.iter_mut().zip(highlights_of(&even.clone())?) {
+        let values = view.image.data.iter_mut().zip(&highlights.data);
+        values.for_each(|(value, highlight)| *value -= highlight);
+    }
+    for (gain, rest) in gains.iter_mut().zip(solve(&capture.mesh, &even.train)?) {
+        gain.iter_mut().zip(rest).for_each(|(gain, rest)| *gain *= rest);
+    }
+    Ok((Cow::Owned(divided(capture, &capture.train, &gains)), named(capture, &gains)))
+}
+
+/// The capture with `views`, divided by their gains, in the place of its training views.
+fn divided(capture: &Capture, views: &[View], gains: &[Gain]) -> Capture {
     let mut even = capture.clone();
-    for (view, gain) in even.train.iter_mut().zip(&gains) {
+    even.train = views.to_vec();
+    even.has_unknown_exposure = false;
+    for (view, gain) in even.train.iter_mut().zip(gains) {
         for pixel in view.image.data.chunks_exact_mut(3) {
             pixel.iter_mut().zip(gain).for_each(|(value, gain)| *value /= gain);
         }
     }
+    even
+}
+
+fn named(capture: &Capture, gains: &[Gain]) -> Vec<(String, Gain)> {
     let names = capture.train.iter().map(|view| view.camera.name.clone());
-    Ok((Cow::Owned(even), names.zip(gains).collect()))
+    names.zip(gains.iter().copied()).collect()
 }
 
 /// A point in a view: the view, and the logarithm of a channel.
 type Look = (usize, f64);
 
-fn solve(capture: &Capture) -> Result<Vec<Gain>, SolveError> {
-    let views: Vec<View> = capture.train.iter().map(small).collect();
-    let gbuffers = GBuffer::of_views(&capture.mesh, &views);
-    let projections = Projection::of_views(&views, &gbuffers);
-    let atlas = Atlas::new(&capture.mesh, SIZE);
+fn solve(mesh: &Mesh, views: &[View]) -> Result<Vec<Gain>, SolveError> {
+    let gbuffers = GBuffer::of_views(mesh, views);
+    let projections = Projection::of_views(views, &gbuffers);
+    let atlas = Atlas::new(mesh, SIZE);
     let looks: Vec<Vec<(usize, [f32; 3])>> = per_texel(&atlas, &projections, |seen| {
         let steep = seen.iter().filter(|(_, seen)| seen.cosine >= MIN_COSINE);
         steep.map(|(view, seen)| (*view, projections[*view].colour(seen).to_array())).collect()

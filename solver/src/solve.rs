@@ -1,10 +1,12 @@
 //! A solve of either method, with its checkpoint, its record and its files.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
-use capture::{Camera, Capture, LightFrame};
+use capture::{Camera, Capture, LightFrame, View};
 use formats::atomic::{self, Folder};
 use formats::maps::MapsError;
+use formats::picture::Picture;
 
 use crate::backend::Backend;
 use crate::config::Config;
@@ -56,6 +58,30 @@ pub fn seconds_on_two_cores(config: &Config, extent: &Extent) -> f64 {
     plan(config, extent).iter().map(Work::seconds).sum()
 }
 
+/// The highlights of every training view, as a fast solve of a capture predicts them.
+fn highlights(
+    backend: &dyn Backend,
+    capture: &Capture,
+    progress: &mut Callback,
+) -> Result<Vec<Picture>, SolveError> {
+    let config = Config::from_toml("base = \"fast\"\n[records]\nlayers = true\n")?;
+    let mut highlights = BTreeMap::new();
+    let mut sink = |view: &ViewLayers| {
+        let Picture { width, height, channels, data } = &view.picture;
+        let specular = data.chunks_exact(*channels).flat_map(|pixel| &pixel[6..9]).copied();
+        let picture =
+            Picture { width: *width, height: *height, channels: 3, data: specular.collect() };
+        highlights.insert(view.name.clone(), picture);
+        Ok(())
+    };
+    let options = Options { checkpoint: None, layers: Some(&mut sink) };
+    solve_on(backend, capture, &config, options, progress)?;
+    let empty = |camera: &Camera| Picture::new(camera.width, camera.height, 3);
+    let of_view =
+        |view: &View| highlights.remove(&view.camera.name).unwrap_or(empty(&view.camera));
+    Ok(capture.train.iter().map(of_view).collect())
+}
+
 /// The steps and costs of the stages.
 fn plan(config: &Config, extent: &Extent) -> Vec<Work> {
     match config {
@@ -88,7 +114,9 @@ pub fn solve_on(
     progress: &mut Callback,
 ) -> Result<Solution, SolveError> {
     config.validate()?;
-    let (capture, gains) = exposure::evened(capture)?;
+    let (capture, gains) = exposure::evened_without_highlights(capture, |even| {
+        highlights(backend, even, progress)
+    })?;
     let capture = &*capture;
     if matches!(config, Config::Paper(_)) && !capture.truth.parts.is_empty() {
         return Err(SolveError::GivenToOther);

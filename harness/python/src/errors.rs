@@ -82,6 +82,7 @@ impl Named for SolveError {
             Self::NotFinite { .. }
             | Self::Memory { .. }
             | Self::GivenToOther
+            | Self::Exposure(_)
             | Self::SeveralLights { .. } => "SolveError",
         }
     }

@@ -61,7 +61,14 @@ fn a_solve_records_the_gains() {
     let config = Config::from_toml("base = \"paper\"\n[warm_up]\niterations = 2\n").unwrap();
     let callback: &mut Callback = &mut test_scene::silent;
     let solution = test_scene::solve(&capture, &config, callback).unwrap();
-    assert_eq!(solution.record.gains, evened(&capture).unwrap().1);
+    let expected = STOPS.map(|stops| stops.map(f32::exp2));
+    for ((_, gain), expected) in solution.record.gains.iter().zip(expected) {
+        for (gain, expected) in gain.iter().zip(expected) {
+            // The surface is matte: the second estimate adds the error of the predicted highlights.
+            assert!((gain / expected - 1.0).abs() < 0.02, "{gain} {expected}");
+        }
+    }
+    assert_eq!(solution.record.gains.len(), 5);
 }
 
 #[test]

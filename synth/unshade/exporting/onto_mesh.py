@@ -55,7 +55,13 @@ def onto_mesh(surface: Surface, capture: Path, mesh: Path) -> Surface:
 def _resampled(surface: Surface, shape: Mesh, mesh: Path) -> ChartMaps:
     ours = surface.mesh
     from_ = ChartMesh(
-        ours.vertices.astype(np.float64), ours.triangles, ours.uv.astype(np.float64), None, None, (), np.zeros(0, np.int64)
+        ours.vertices.astype(np.float64),
+        ours.triangles,
+        ours.uv.astype(np.float64),
+        None,
+        None,
+        (),
+        np.zeros(0, np.int64),
     )
     counterparts = find_counterparts(
         shape.vertices,

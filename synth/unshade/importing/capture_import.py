@@ -153,7 +153,9 @@ class CaptureImport:
         self._judge(report)
         self.notes |= report.notes(even=reading.reference is not None or self.unknown_exposure)
         self.light = light_motion(mesh, lit)
-        warning = None if self.light is None else self.light.warning(self.light_frame, fits=(report.overlap or 0) >= SOUND)
+        warning = (
+            None if self.light is None else self.light.warning(self.light_frame, fits=(report.overlap or 0) >= SOUND)
+        )
         if warning is not None:
             self._warn(warning)
         names = sorted({*LABELS.items()}, key=lambda item: item[1])
@@ -170,12 +172,13 @@ class CaptureImport:
         if self.choices.front is not None:
             named |= named_views(self.source, [self.choices.front], "front")
         views = [view for view in self.source.views if view.name not in named]
+        mesh = None if self.mesh_file is None else self.mesh
         sharp: list[float] = []
         for number, view in enumerate(views):
             self.progress(number, len(views), f"sharpness of {view.name}")
-            sharp.append(sharpness(take(self.source, view, reading, set())))
+            sharp.append(sharpness(take(self.source, view, reading, set()), mesh))
         cameras = [view.camera_to_world for view in views]
-        centre = looked_at(cameras) if self.mesh_file is None else self.mesh.vertices.mean(0)
+        centre = looked_at(cameras) if mesh is None else mesh.vertices.mean(0)
         chosen = chosen_frames(directions(cameras, centre), sharp, count)
         kept = {views[number].name for number in chosen} | named
         stated = len(self.source.views)

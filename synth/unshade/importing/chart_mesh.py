@@ -46,7 +46,13 @@ class ChartMesh:
         rows, triangles, uv = unwrap(self.vertices, self.triangles)
         normals = None if self.normals is None else self.normals[rows]
         return replace(
-            self, vertices=self.vertices[rows], triangles=triangles, uv=uv, normals=normals, verbatim=None, has_own_uv=False
+            self,
+            vertices=self.vertices[rows],
+            triangles=triangles,
+            uv=uv,
+            normals=normals,
+            verbatim=None,
+            has_own_uv=False,
         )
 
     def layout_faults(self, used: NDArray[np.bool_] | None = None) -> tuple[str | None, str | None, bool, int]:

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..vectors import unit
+from .chart_mesh import ChartMesh
 from .photographs import ImportedView
 from .pictures import Floats
 from .source import Matrix
@@ -15,14 +16,19 @@ _SIDE = 1000
 """Longest side (pixels) at which sharpness is measured: noise of single pixels is not sharpness."""
 
 
-def sharpness(taken: ImportedView) -> float:
+def sharpness(taken: ImportedView, mesh: ChartMesh | None) -> float:
     """The variance of the Laplacian (Pech-Pacheco et al. 2000) of the logarithm of grey inside the mask, so that no
-    exposure changes it; of the whole picture without a mask, 0 where the mask is empty."""
+    exposure changes it; without a mask inside the silhouette of ``mesh``, else of the whole picture. 0 where the face is
+    not seen."""
     small = taken.smaller(-(-max(taken.radiance.shape[:2]) // _SIDE))
-    inside = np.ones(small.radiance.shape[:2], bool) if small.mask is None else small.mask > 0
     if small.mask is not None:
-        # The outline is sharp where the face is not.
-        inside = cv2.erode(inside.astype(np.uint8), np.ones((5, 5), np.uint8)) > 0
+        inside = small.mask > 0
+    elif mesh is not None:
+        inside = small.camera.silhouette(mesh.vertices, mesh.triangles)
+    else:
+        inside = np.ones(small.radiance.shape[:2], bool)
+    # The outline is sharp where the face is not; a picture has none.
+    inside = cv2.erode(inside.astype(np.uint8), np.ones((5, 5), np.uint8)) > 0
     if not inside.any():
         return 0.0
     grey: Floats = small.radiance.mean(-1)

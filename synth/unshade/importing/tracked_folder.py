@@ -134,13 +134,19 @@ def _mesh_paths(path: Path) -> dict[Path, Path]:
     """The OBJ of each picture. Raises `CaptureError`."""
     found: dict[Path, Path] = {}
     for file in transforms_files(path):
-        frames: list[dict[str, Any]] = [frame for frame in read_document(file).get("frames", []) if isinstance(frame, dict)]
+        frames: list[dict[str, Any]] = [
+            frame for frame in read_document(file).get("frames", []) if isinstance(frame, dict)
+        ]
         for frame in frames:
             mesh, picture = frame.get("mesh_path"), frame.get("file_path")
             if isinstance(mesh, str) and isinstance(picture, str):
                 found[picture_file(file, picture)] = file.parent / mesh.replace("\\", "/")
         if not found:
-            has = "only FLAME's parameters (flame_param_path)" if any("flame_param_path" in f for f in frames) else "no mesh_path"
+            has = (
+                "only FLAME's parameters (flame_param_path)"
+                if any("flame_param_path" in f for f in frames)
+                else "no mesh_path"
+            )
             raise CaptureError(f"{file}: its frames have {has}; export their meshes (VHAP: --flame-mode mesh)")
     return found
 
@@ -164,7 +170,9 @@ def with_vertices(mesh: ChartMesh, file: Path, vertices: Points) -> ChartMesh:
     """
     lines = _read_vertices(file)
     if len(lines) != len(vertices):
-        raise CaptureError(f"{file}: has {len(lines)} vertices, but the tracked meshes {len(vertices)}; name their template")
+        raise CaptureError(
+            f"{file}: has {len(lines)} vertices, but the tracked meshes {len(vertices)}; name their template"
+        )
     row = {tuple(point): number for number, point in enumerate(lines.tolist())}
     rows = [row.get(tuple(point), -1) for point in mesh.vertices.tolist()]
     if len(row) < len(lines) or -1 in rows:

@@ -6,6 +6,8 @@ import numpy as np
 import xatlas
 from numpy.typing import NDArray
 
+from ..vectors import twice_areas
+
 _PAGE, _PADDING = 1024, 8
 """Texels along the side of the page and between islands."""
 
@@ -22,6 +24,8 @@ def unwrap(
     for 100,000 triangles.
     """
     places, place = np.unique(vertices, axis=0, return_inverse=True)
+    # xatlas leaves out triangles below an area of 1e-7, as those of half a millimetre in metres are.
+    places = places / np.sqrt(twice_areas(vertices, triangles).mean())
     atlas = xatlas.Atlas()
     atlas.add_mesh(places.astype(np.float32), place.ravel()[triangles].astype(np.uint32))
     charts, packing = xatlas.ChartOptions(), xatlas.PackOptions()
