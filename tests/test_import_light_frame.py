@@ -52,6 +52,12 @@ def test_a_still_light_that_is_said_to_move_is_doubted() -> None:
     assert "seems to stand still" in (still.warning("camera") or "") and still.warning("head") is None
 
 
+def test_views_that_disagree_although_outlines_fit_may_be_glossy() -> None:
+    glossy = LightMotion(8, one_light=0.5, own_lights=0.4)
+    assert "glossier than skin" in (glossy.warning("head", fits=True) or "")
+    assert "do not belong to their cameras" in (glossy.warning("head", fits=False) or "")
+
+
 def test_what_a_transforms_file_states_of_its_light_is_kept(tmp_path: Path) -> None:
     folder = painted_capture.write(tmp_path / "head", painted_capture.views(AZIMUTHS, lamp_of_the_room))
     file = folder / "transforms.json"

@@ -25,9 +25,9 @@ const SIZE: usize = 192;
 /// Longest side to which pictures are averaged, pixels: about as fine as the texture.
 const PIXELS: usize = 400;
 /// Cosine between view and normal from which an observation counts: grazing views reflect more.
-const MIN_COSINE: f32 = 0.4;
-/// Share of a view's median below which a channel is noise.
-const DARK: f64 = 0.05;
+const MIN_COSINE: f32 = 0.5;
+/// Share of a view's median below which a channel is left out: highlights are a larger share of what is dark.
+const DARK: f64 = 0.5;
 /// Tukey's constant: 95 % efficiency for Gaussian errors.
 const TUKEY: f64 = 4.685;
 /// Rounds of reweighting.
@@ -37,10 +37,12 @@ const MIN_SHARED: usize = 20;
 
 /// The factor (R, G, B) of a view's picture.
 pub type Gain = [f32; 3];
+/// The name and the gain of every training view.
+pub type NamedGains = Vec<(String, Gain)>;
 
 /// The capture with evenly exposed pictures, and the name and gain of every training view: those of `capture` and none
 /// unless its exposures are unknown.
-pub fn evened(capture: &Capture) -> Result<(Cow<'_, Capture>, Vec<(String, Gain)>), SolveError> {
+pub fn evened(capture: &Capture) -> Result<(Cow<'_, Capture>, NamedGains), SolveError> {
     if !capture.has_unknown_exposure {
         return Ok((Cow::Borrowed(capture), vec![]));
     }
@@ -54,14 +56,15 @@ pub fn evened(capture: &Capture) -> Result<(Cow<'_, Capture>, Vec<(String, Gain)
 pub(crate) fn evened_without_highlights<'a>(
     capture: &'a Capture,
     highlights_of: impl FnOnce(&Capture) -> Result<Vec<Picture>, SolveError>,
-) -> Result<(Cow<'a, Capture>, Vec<(String, Gain)>), SolveError> {
+) -> Result<(Cow<'a, Capture>, NamedGains), SolveError> {
     if !capture.has_unknown_exposure {
         return Ok((Cow::Borrowed(capture), vec![]));
     }
     let views: Vec<View> = capture.train.iter().map(small).collect();
     let mut gains = solve(&capture.mesh, &views)?;
     let mut even = divided(capture, &views, &gains);
-    for (view, highlights) in even.train.iter_mut().zip(highlights_of(&even.clone())?) {
+    let highlights = highlights_of(&even)?;
+    for (view, highlights) in even.train.iter_mut().zip(&highlights) {
         let values = view.image.data.iter_mut().zip(&highlights.data);
         values.for_each(|(value, highlight)| *value -= highlight);
     }
@@ -84,7 +87,7 @@ fn divided(capture: &Capture, views: &[View], gains: &[Gain]) -> Capture {
     even
 }
 
-fn named(capture: &Capture, gains: &[Gain]) -> Vec<(String, Gain)> {
+fn named(capture: &Capture, gains: &[Gain]) -> NamedGains {
     let names = capture.train.iter().map(|view| view.camera.name.clone());
     names.zip(gains.iter().copied()).collect()
 }
@@ -125,11 +128,7 @@ fn small(view: &View) -> View {
 }
 
 /// The logarithms of a channel of all points that several views show, but for what is dark.
-fn logarithms(
-    looks: &[Vec<(usize, [f32; 3])>],
-    views: usize,
-    channel: usize,
-) -> Vec<Vec<Look>> {
+fn logarithms(looks: &[Vec<(usize, [f32; 3])>], views: usize, channel: usize) -> Vec<Vec<Look>> {
     let mut of_view = vec![vec![]; views];
     for (view, colour) in looks.iter().flatten() {
         of_view[*view].push(f64::from(colour[channel]));
@@ -217,7 +216,8 @@ fn least_squares(points: &[Vec<Look>], weights: &[Vec<f64>], views: usize) -> Ve
         }
     }
     // The gauge: the equations leave the mean free.
-    let scale = (0..views).map(|view| matrix[view * views + view]).sum::<f64>() / (views * views) as f64;
+    let scale =
+        (0..views).map(|view| matrix[view * views + view]).sum::<f64>() / (views * views) as f64;
     matrix.iter_mut().for_each(|value| *value += scale);
     cholesky(&mut matrix, &mut side, views);
     side

@@ -77,8 +77,7 @@ fn highlights(
     let options = Options { checkpoint: None, layers: Some(&mut sink) };
     solve_on(backend, capture, &config, options, progress)?;
     let empty = |camera: &Camera| Picture::new(camera.width, camera.height, 3);
-    let of_view =
-        |view: &View| highlights.remove(&view.camera.name).unwrap_or(empty(&view.camera));
+    let of_view = |view: &View| highlights.remove(&view.camera.name).unwrap_or(empty(&view.camera));
     Ok(capture.train.iter().map(of_view).collect())
 }
 
@@ -114,9 +113,8 @@ pub fn solve_on(
     progress: &mut Callback,
 ) -> Result<Solution, SolveError> {
     config.validate()?;
-    let (capture, gains) = exposure::evened_without_highlights(capture, |even| {
-        highlights(backend, even, progress)
-    })?;
+    let (capture, gains) =
+        exposure::evened_without_highlights(capture, |even| highlights(backend, even, progress))?;
     let capture = &*capture;
     if matches!(config, Config::Paper(_)) && !capture.truth.parts.is_empty() {
         return Err(SolveError::GivenToOther);

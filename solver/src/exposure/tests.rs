@@ -10,7 +10,10 @@ use crate::{Config, test_scene, testing};
 const STOPS: [[f32; 3]; 5] =
     [[0.5, 0.3, 0.1], [-0.4, 0.0, 0.3], [0.0, -0.6, -0.5], [-0.3, 0.1, 0.0], [0.2, 0.2, 0.1]];
 
-fn edited(edit: impl FnOnce(&mut Value), withheld: usize) -> Result<Capture, capture::CaptureError> {
+fn edited(
+    edit: impl FnOnce(&mut Value),
+    withheld: usize,
+) -> Result<Capture, capture::CaptureError> {
     let folder = tempfile::tempdir().unwrap();
     let mut views = test_scene::views(6, 48);
     for (view, stops) in views.iter_mut().zip(STOPS) {

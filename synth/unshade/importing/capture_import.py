@@ -153,11 +153,11 @@ class CaptureImport:
         self._judge(report)
         self.notes |= report.notes(even=reading.reference is not None or self.unknown_exposure)
         self.light = light_motion(mesh, lit)
-        warning = (
-            None if self.light is None else self.light.warning(self.light_frame, fits=(report.overlap or 0) >= SOUND)
-        )
-        if warning is not None:
-            self._warn(warning)
+        # Tracked meshes show whether the head moved.
+        if self.light is not None and self.source.vertices is None:
+            warning = self.light.warning(self.light_frame, fits=(report.overlap or 0) >= SOUND)
+            if warning is not None:
+                self._warn(warning)
         names = sorted({*LABELS.items()}, key=lambda item: item[1])
         folder.transforms(names, self.light_frame, unknown_exposure=self.unknown_exposure)
         folder.record(self._record(reading, verdict, placement, report))

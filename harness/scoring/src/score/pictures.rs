@@ -75,7 +75,8 @@ pub(super) fn view_rows(
     let true_folder = true_folder(capture, light)?;
     let subjects = ["view", "view_diffuse_layer", "view_specular_layer"];
     let heading = Heading { subject: "view", light: None, scale: "none", label: None };
-    let (found, truths) = (read(frames, &views, INCOMPLETE)?, read(frames, &true_folder, truth::AGAIN)?);
+    let (found, truths) =
+        (read(frames, &views, INCOMPLETE)?, read(frames, &true_folder, truth::AGAIN)?);
     compare(frames, &found, &truths, heading, subjects, highlights)
 }
 
@@ -134,11 +135,7 @@ fn true_folder(capture: &Path, light: &str) -> Result<PathBuf, ScoreError> {
     present(truth::folder(capture)?.join("relit").join(light), truth::AGAIN)
 }
 
-fn read(
-    frames: &[Frame],
-    folder: &Path,
-    fix: &'static str,
-) -> Result<Vec<Render>, ScoreError> {
+fn read(frames: &[Frame], folder: &Path, fix: &'static str) -> Result<Vec<Render>, ScoreError> {
     frames.iter().map(|frame| frame.read(folder, fix)).collect()
 }
 
