@@ -10,7 +10,7 @@ import render_toy
 
 from unshade.errors import CaptureError, MapsError, PictureError, StorageError
 from unshade.face.ita import Tone
-from unshade.files.pictures import read_exr, read_gray, write_exr
+from unshade.files.pictures import read_exr, read_gray, read_rgb, write_exr
 from unshade.render import capture, llvm, relight, shots
 from unshade.render.rigs import cameras
 from unshade.render.scene_text import scene_text
@@ -200,6 +200,26 @@ def test_image_formation_leaves_the_truth_alone(captured, tmp_path):
     assert (
         captured_scene(out).formation == formed.formation and captured_scene(out).captured_mesh == formed.captured_mesh
     )
+
+
+def test_automatic_exposure_is_a_factor_that_only_the_truth_states(captured, tmp_path):
+    hidden = replace(scene(), formation=Formation(gain_stops=0.5, white_balance_stops=0.2))
+    out = tmp_path / "capture"
+    capture.synthesise(hidden, out, CHOICE, no_progress)
+    made, perfect = files(out), files(captured)
+    pictures = {f"images/{name}.exr" for name in ("000", "001", "002")}
+    assert {name for name in perfect if made[name] != perfect[name]} == pictures | {
+        "transforms.json",
+        "truth/scene.toml",
+    }
+    assert set(made) - set(perfect) == {"truth/gains.json"}
+    document, gains = json.loads(made["transforms.json"]), json.loads(made["truth/gains.json"])
+    assert document.pop("exposure") == "unknown" and document == json.loads(perfect["transforms.json"])
+    assert sorted(gains) == ["000", "001", "002"]
+    for name, gain in gains.items():
+        seen, plain = (read_rgb(folder / f"images/{name}.exr") for folder in (out, captured))
+        np.testing.assert_allclose(seen, plain * np.float32(gain), rtol=1e-5)
+        assert gain[0] != gain[1] != gain[2] and 0.1 < min(gain) < max(gain) < 10
 
 
 def test_faulty_labels_change_labels_alone_and_render_nothing_anew(captured, tmp_path, monkeypatch):
