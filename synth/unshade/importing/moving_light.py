@@ -103,8 +103,8 @@ class LightMotion:
         if self.disagrees:
             return (
                 f"one place of the mesh differs by {self.own_lights:.0%} between views whatever their light, so "
-                "photographs do not belong to their cameras or to the mesh; look at the order of files, at photographs "
-                "that are turned or mirrored, and at the mesh over the photographs"
+                "photographs do not belong to their cameras or to the mesh, or the surface is glossier than skin; look at "
+                "the order of files, at photographs that are turned or mirrored, and at the mesh over the photographs"
             )
         spread = (
             f"one place differs by {self.one_light:.0%} between views, and by {self.own_lights:.0%} if each has a light "
