@@ -21,6 +21,9 @@ use crate::error::ViewError;
 /// Code unit of the fifteen bits 0: what follows up to 0xafff holds no surrogate, quote or line end.
 const FIRST_UNIT: u16 = 0x3000;
 
+/// Both codes of a vector that is zero: beyond those of directions.
+const NO_VECTOR: i64 = i16::MAX as i64;
+
 /// The type of an array's elements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -35,25 +38,32 @@ pub(crate) enum Element {
     Half,
     /// Signed, 16 bits: numbers in steps of one over the array's scale.
     I16,
+    /// Signed, 16 bits: two numbers, from which a unit vector is folded out (Meyer et al. 2010, octahedra), in steps of
+    /// one over the array's scale; zero vectors have the code [`NO_VECTOR`].
+    Octahedral,
+    /// Signed, 16 bits: square roots of RGB in steps of one over the array's scale, red and blue as differences from
+    /// green.
+    Root,
 }
 
 impl Element {
     fn bytes(self) -> usize {
         match self {
             Self::U8 => 1,
-            Self::U16 | Self::Half | Self::I16 => 2,
+            Self::U16 | Self::Half | Self::I16 | Self::Octahedral | Self::Root => 2,
             Self::U32 => 4,
         }
     }
 }
 
 /// An array with its codes, row by row, channels interleaved.
+#[derive(PartialEq)]
 pub(crate) struct Array {
     pub width: usize,
     pub height: usize,
     pub channels: usize,
     pub element: Element,
-    /// Codes of [`Element::I16`] are numbers times this.
+    /// Codes of signed elements are numbers times this.
     pub scale: f32,
     /// As integers of the element's type.
     pub codes: Vec<i64>,
@@ -81,12 +91,56 @@ impl Array {
         Self { width, height, channels, element: Element::Half, scale: 1.0, codes }
     }
 
-    /// The numbers of a picture in steps of 1/`scale`, for maps whose small values need no finer ones.
-    pub fn steps(picture: &Picture, scale: f32) -> Self {
+    /// The numbers of a picture in steps of 1/`scale`, for maps whose small values need no finer ones; None if one is
+    /// too large.
+    pub fn steps(picture: &Picture, scale: f32) -> Option<Self> {
+        if !picture.data.iter().all(|value| (value * scale).abs() < f32::from(i16::MAX)) {
+            return None;
+        }
         let code = |value: &f32| i64::from((value * scale).round() as i16);
         let Picture { width, height, channels, .. } = *picture;
         let codes = picture.data.iter().map(code).collect();
-        Self { width, height, channels, element: Element::I16, scale, codes }
+        Some(Self { width, height, channels, element: Element::I16, scale, codes })
+    }
+
+    /// Directions in steps of 1/`scale`; None if a vector is neither zero nor of unit length to a hundredth.
+    pub fn octahedral(picture: &Picture, scale: f32) -> Option<Self> {
+        let Picture { width, height, .. } = *picture;
+        let mut codes = Vec::with_capacity(2 * width * height);
+        for vector in picture.data.chunks_exact(3) {
+            let (x, y, z) = (vector[0], vector[1], vector[2]);
+            let length = (x * x + y * y + z * z).sqrt();
+            if length == 0.0 {
+                codes.extend([NO_VECTOR; 2]);
+                continue;
+            }
+            // Not a number is not near 1 either.
+            if !((length - 1.0).abs() < 0.01) {
+                return None;
+            }
+            let sum = x.abs() + y.abs() + z.abs();
+            let (x, y) = (x / sum, y / sum);
+            let folded = |a: f32, b: f32| (1.0 - b.abs()).copysign(a);
+            let (x, y) = if z < 0.0 { (folded(x, y), folded(y, x)) } else { (x, y) };
+            codes.extend([x, y].map(|value| (value * scale).round() as i64));
+        }
+        Some(Self { width, height, channels: 2, element: Element::Octahedral, scale, codes })
+    }
+
+    /// Colours whose square roots have steps of 1/`scale`; None if one is negative or too large.
+    pub fn root(picture: &Picture, scale: f32) -> Option<Self> {
+        let Picture { width, height, channels, .. } = *picture;
+        let largest = (f32::from(i16::MAX) / 2.0 / scale).powi(2);
+        if channels != 3 || !picture.data.iter().all(|value| (0.0..largest).contains(value)) {
+            return None;
+        }
+        let mut codes: Vec<i64> =
+            picture.data.iter().map(|value| (value.sqrt() * scale).round() as i64).collect();
+        for rgb in codes.chunks_exact_mut(3) {
+            rgb[0] -= rgb[1];
+            rgb[2] -= rgb[1];
+        }
+        Some(Self { width, height, channels, element: Element::Root, scale, codes })
     }
 
     /// The bytes of a grey image.
@@ -107,7 +161,7 @@ impl Array {
     pub fn write(&self, folder: &Path, name: &str) -> Result<Stored, ViewError> {
         let path = folder.join("data").join(format!("{name}.js"));
         let failed = |error| ViewError::write(&path, error);
-        let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
+        let mut encoder = ZlibEncoder::new(Vec::new(), Compression::best());
         encoder.write_all(&self.planes()).map_err(failed)?;
         let packed = encoder.finish().map_err(failed)?;
         let head = format!("unshadeView.arrive(\"{name}\",{},\"", packed.len());
@@ -182,8 +236,24 @@ mod tests {
         assert_eq!(pairs.planes(), [10, 4, 18, 1]);
         // A plane is predicted, so that its last code costs nothing.
         let data = vec![0.0, 0.25, 0.5, 0.75];
-        let plane = Array::steps(&Picture { width: 2, height: 2, channels: 1, data }, 4.0);
+        let plane = Array::steps(&Picture { width: 2, height: 2, channels: 1, data }, 4.0).unwrap();
         assert_eq!(plane.planes(), [0, 2, 4, 2, 0, 0, 0, 0]);
+    }
+
+    #[test]
+    fn directions_are_two_codes_and_colours_roots() {
+        let data = vec![0.0, 0.0, 1.0, 0.6, 0.0, 0.8, 0.0, -0.6, -0.8, 0.0, 0.0, 0.0];
+        let vectors = Picture { width: 4, height: 1, channels: 3, data };
+        let none = NO_VECTOR;
+        // 0.6 of 1.4; below the horizon the other axis' complement.
+        let found = Array::octahedral(&vectors, 700.0).unwrap().codes;
+        assert_eq!(found, [0, 0, 300, 0, 400, -700, none, none]);
+        let long = Picture { width: 1, height: 1, channels: 3, data: vec![0.0, 0.0, 1.1] };
+        assert!(Array::octahedral(&long, 700.0).is_none());
+        let colours = |data| Picture { width: 1, height: 1, channels: 3, data };
+        let found = Array::root(&colours(vec![0.36, 0.25, 0.04]), 10.0).unwrap().codes;
+        assert_eq!(found, [1, 5, -3]);
+        assert!(Array::root(&colours(vec![0.36, -0.01, 0.04]), 10.0).is_none());
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::error::ViewError;
 
 /// The scripts, in the order in which a page loads them.
-const SCRIPTS: [(&str, &str); 15] = [
+const SCRIPTS: [(&str, &str); 16] = [
     ("three.js", include_str!("page/vendor/three.js")),
     ("arrays.js", include_str!("page/arrays.js")),
     ("colours.js", include_str!("page/colours.js")),
@@ -16,6 +16,7 @@ const SCRIPTS: [(&str, &str); 15] = [
     ("lamp.js", include_str!("page/lamp.js")),
     ("layers.js", include_str!("page/layers.js")),
     ("panes.js", include_str!("page/panes.js")),
+    ("answer.js", include_str!("page/answer.js")),
     ("spot.js", include_str!("page/spot.js")),
     ("worst.js", include_str!("page/worst.js")),
     ("stills.js", include_str!("page/stills.js")),

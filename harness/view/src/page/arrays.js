@@ -42,7 +42,31 @@ window.unshadeView = {};
     return bytes;
   };
 
-  const ELEMENTS = { u8: Uint8Array, u16: Uint16Array, u32: Uint32Array, half: Uint16Array, i16: Int16Array };
+  const ELEMENTS = { u8: Uint8Array, u16: Uint16Array, u32: Uint32Array, half: Uint16Array, i16: Int16Array, octahedral: Int16Array, root: Int16Array };
+
+  // Directions and colours as numbers: three for each element.
+  const UNPACKED = {
+    octahedral: (codes, scale) => {
+      const values = new Float32Array(codes.length / 2 * 3);
+      for (let i = 0, to = 0; i < codes.length; i += 2, to += 3) {
+        if (codes[i] === 0x7fff) continue;
+        let x = codes[i] / scale, y = codes[i + 1] / scale;
+        const z = 1 - Math.abs(x) - Math.abs(y), fold = Math.max(0, -z);
+        x -= x < 0 ? -fold : fold;
+        y -= y < 0 ? -fold : fold;
+        const size = Math.hypot(x, y, z);
+        values[to] = x / size;
+        values[to + 1] = y / size;
+        values[to + 2] = z / size;
+      }
+      return values;
+    },
+    root: (codes, scale) => {
+      const values = new Float32Array(codes.length);
+      for (let i = 0; i < codes.length; i++) values[i] = ((codes[i] + (i % 3 === 1 ? 0 : codes[i - i % 3 + 1])) / scale) ** 2;
+      return values;
+    },
+  };
 
   const decode = async ({ width, height, channels, element, scale }, [size, text]) => {
     const stream = new Blob([bytesOf(size, text)]).stream().pipeThrough(new DecompressionStream("deflate"));
@@ -61,6 +85,8 @@ window.unshadeView = {};
         x = x + 1 === width ? 0 : x + 1;
       }
     }
+    const unpack = UNPACKED[element];
+    if (unpack) return { width, height, channels: 3, codes: unpack(codes, scale), element: "float", scale };
     return { width, height, channels, codes, element, scale };
   };
 
@@ -82,7 +108,7 @@ window.unshadeView = {};
     return sign * (1 + part / 1024) * 2 ** (exponent - 15);
   };
 
-  const number = ({ element, scale }) => element === "half" ? view.half : (code) => code / scale;
+  const number = ({ element, scale }) => element === "half" ? view.half : element === "float" ? (value) => value : (code) => code / scale;
 
   /// The numbers of one pixel of an array.
   view.pixel = (array, x, y) => {
@@ -105,6 +131,7 @@ window.unshadeView = {};
   /// The codes of an array as half floats, which a texture takes.
   view.halves = (array) => {
     if (array.element === "half") return array.codes;
+    if (array.element === "float") return Uint16Array.from(array.codes, bits);
     if (!tables.has(array.scale)) {
       tables.set(array.scale, Uint16Array.from({ length: 65536 }, (_, code) => bits((code < 32768 ? code : code - 65536) / array.scale)));
     }

@@ -52,7 +52,7 @@
   };
 
   /// The factor that makes the largest unblocked irradiance over the face's front pi.
-  const exposureOf = (head, radiance) => {
+  view.exposureOf = (head, radiance) => {
     const normals = head.geometry.attributes.normal.array;
     const energy = CELLS.map(({ solid }, i) => solid * view.luminance(radiance.subarray(3 * i, 3 * i + 3)));
     let largest = 0;
@@ -70,10 +70,34 @@
     head.nearest ??= nearestOf(head.directions);
     const radiance = inCells(picture, turn);
     if (exposed) {
-      const factor = exposureOf(head, radiance);
+      const factor = view.exposureOf(head, radiance);
       radiance.forEach((value, i) => { radiance[i] = value * factor; });
     }
     return { radiance, cells: CELLS, nearest: head.nearest };
+  };
+
+  // A compact source: cells within this angle of its centre, with this share of all the light.
+  const SOURCE = Math.cos(8 * Math.PI / 180), AROUND = Math.cos(16 * Math.PI / 180), SHARE = 0.25;
+
+  /// Surroundings as a compact source and the rest, for sharp shadows: `source` has its `direction` and the `irradiance`
+  /// (RGB) that it adds to the radiance around it; null if no small part of the sphere has a quarter of the light.
+  view.split = (light) => {
+    const energy = light.cells.map(({ solid }, i) => solid * view.luminance(light.radiance.subarray(3 * i, 3 * i + 3)));
+    const all = energy.reduce((sum, e) => sum + e, 0), brightest = energy.reduce((best, e, i) => e / light.cells[i].solid > energy[best] / light.cells[best].solid ? i : best, 0);
+    const within = (centre, cosine) => light.cells.flatMap(({ direction }, i) => dot(direction, centre) >= cosine ? [i] : []);
+    const middle = new THREE.Vector3();
+    for (const i of within(light.cells[brightest].direction, SOURCE)) middle.addScaledVector(new THREE.Vector3(...light.cells[i].direction), energy[i]);
+    const direction = middle.normalize().toArray(), members = within(direction, SOURCE);
+    if (members.reduce((sum, i) => sum + energy[i], 0) < SHARE * all) return { source: null, rest: light };
+    const ring = within(direction, AROUND).filter((i) => !members.includes(i)), irradiance = [0, 0, 0], radiance = light.radiance.slice();
+    for (let c = 0; c < 3; c++) {
+      const mean = ring.reduce((sum, i) => sum + light.radiance[3 * i + c], 0) / ring.length;
+      for (const i of members) {
+        irradiance[c] += (light.radiance[3 * i + c] - mean) * light.cells[i].solid;
+        radiance[3 * i + c] = mean;
+      }
+    }
+    return { source: { direction, irradiance }, rest: { ...light, radiance } };
   };
 
   /// Radiance 1 from everywhere.
@@ -110,7 +134,7 @@
     return found;
   };
 
-  /// A lamp around the head: its `position`, and the `intensity` (W/sr) that exposes the face as the project does.
+  /// A lamp around the head: its `position`, and the `intensity` (W/sr, RGB) that exposes the face as the project does.
   view.lampAt = (head, { azimuth, elevation, distance }) => {
     const [a, e] = [azimuth, elevation].map((degrees) => degrees * Math.PI / 180);
     const way = new THREE.Vector3(Math.sin(a) * Math.cos(e), Math.sin(e), Math.cos(a) * Math.cos(e));
@@ -124,7 +148,7 @@
       const d = Math.hypot(x, y, z);
       largest = Math.max(largest, (x * normal.getX(i) + y * normal.getY(i) + z * normal.getZ(i)) / d ** 3);
     }
-    return { position, intensity: largest > 0 ? Math.PI / largest : 0 };
+    return { position, intensity: Array(3).fill(largest > 0 ? Math.PI / largest : 0) };
   };
 
   /// A lat-long picture from a dropped .hdr or .exr file. Throws an `Error` for what is none.

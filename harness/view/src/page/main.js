@@ -25,7 +25,7 @@
       found.push({ id: pane.id, title, read: read(pane.light) });
     }
     scene.lights.forEach(([name, light], i) => found.push({ id: "light" + i, title: name, read: read(light) }));
-    found.push({ id: "even", title: "uniform", read: async () => view.EVEN });
+    if (!scene.lights.some(([name]) => name === "uniform")) found.push({ id: "even", title: "uniform", read: async () => view.EVEN });
     return found;
   };
 
@@ -49,7 +49,7 @@
     const head = await view.loadHead(scene.mesh), stage = new view.Stage(part("canvas"), scene, head);
     const layers = view.layersOf(scene), lights = lightsOf(scene), element = part("stage");
     const state = {
-      camera: [0, 0, head.radius / Math.sin(12.5 * DEGREES) * 0.95, ...head.centre.toArray()], lens: 25,
+      camera: [0, 0, head.radius / Math.sin(12.5 * DEGREES) * 1.06, ...head.centre.toArray()], lens: 25,
       light: lights.length > 3 ? lights[2].id : "lamp", lamp: { azimuth: 35, elevation: 30, distance: 1 }, turn: 0,
       layer: "shaded", exposure: 0, factor: true, shown: scene.panes.map(({ id }) => id), swipe: null, spot: null,
     };
@@ -211,7 +211,7 @@
       refresh();
     };
 
-    const worst = () => view.listWorst({ section: part("worst"), choice: part("worst-of"), list: part("patches") }, scene, layerNow(), (uv, errors) => {
+    const worst = () => view.listWorst({ section: part("worst"), choice: part("worst-of"), list: part("patches") }, scene, head, layerNow(), (uv, errors) => {
       state.layer = errors.key;
       show();
       face(uv);

@@ -76,9 +76,15 @@
       }
     }
 
-    /// Lights the head by surroundings.
-    setSurroundings(light) {
+    /// Lights the head by surroundings; a compact source in them shines as a lamp does.
+    setSurroundings(surroundings) {
+      const { source, rest: light } = view.split(surroundings), far = 1000 * this.head.radius;
       this.lamp = null;
+      // So far away that its irradiance is the same all over the head.
+      if (source) {
+        const position = new THREE.Vector3(...source.direction).multiplyScalar(far).add(this.head.centre);
+        this.setLamp({ position, intensity: source.irradiance.map((e) => e * far * far) });
+      }
       this.surroundings = light;
       this.setHarmonics(view.visibleHarmonics(this.head, light));
       const { width, height } = view.PREFILTERED, values = new Float32Array(4 * width * height);
@@ -95,9 +101,10 @@
       quad.geometry.dispose();
     }
 
-    /// Lights the head by a lamp, and draws its depth map.
+    /// Lights the head by a lamp alone, and draws its depth map.
     setLamp(lamp) {
       this.lamp = lamp;
+      this.surroundings = null;
       const { centre, radius } = this.head, distance = lamp.position.distanceTo(centre);
       // The narrowest cone around the head; from inside its sphere, a wide one.
       const tangent = distance > 1.05 * radius ? radius / Math.sqrt(distance * distance - radius * radius) : 3;
@@ -197,11 +204,12 @@
       const { uniforms } = material;
       uniforms.exposure.value = exposure;
       uniforms.bright.value = Boolean(this.lamp);
+      uniforms.ambient.value = Boolean(this.surroundings);
       uniforms.prefiltered.value = this.prefiltered.texture;
       uniforms.shadowMap.value = this.shadow.texture;
       if (!this.lamp) return;
       uniforms.lamp.value.copy(this.lamp.position);
-      uniforms.lampIntensity.value.setScalar(this.lamp.intensity);
+      uniforms.lampIntensity.value.set(...this.lamp.intensity);
       uniforms.lampForward.value.copy(this.cone.forward);
       uniforms.lampRight.value.copy(this.cone.right);
       uniforms.lampUp.value.copy(this.cone.up);

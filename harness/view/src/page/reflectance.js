@@ -49,8 +49,8 @@
     return sums;
   };
 
-  /// The share of the irradiance at a place that the head does not block, by luminance.
-  view.reaching = (light, visible, place) => {
+  /// The irradiance at a place, by luminance: `all`, as if nothing blocked the light, and the unblocked part of it.
+  view.irradiance = (light, visible, place) => {
     const n = place.normal.toArray();
     let open = 0, all = 0;
     light.cells.forEach(({ direction, solid }, cell) => {
@@ -58,6 +58,6 @@
       all += e;
       open += e * visible[cell];
     });
-    return all > 0 ? open / all : 0;
+    return { open, all };
   };
 })();

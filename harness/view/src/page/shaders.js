@@ -31,7 +31,7 @@
     out vec4 result;
     uniform sampler2D albedoMap, diffuseNormalMap, specularNormalMap, roughnessMap, valueMap, truthMap, shadowMap, prefiltered;
     uniform int mode, channel;
-    uniform bool linear, bright;
+    uniform bool linear, bright, ambient;
     uniform float exposure, factor, bottom, top, shadowTexel;
     uniform vec3 lamp, lampIntensity, lampForward, lampRight, lampUp, ramp[10], palette[8];
     uniform float lampTangent;
@@ -133,13 +133,14 @@
           vec3 l = toLamp / distance_;
           if (dot(facing, v) > 0.0 && dot(facing, l) > 0.0) {
             vec3 e = lampIntensity / (distance_ * distance_) * lit(facing, l, distance_);
-            diffuse = max(dot(nd, l), 0.0) / PI * e;
-            specular = highlight(ns, v, l, lobes) * e;
+            diffuse += max(dot(nd, l), 0.0) / PI * e;
+            specular += highlight(ns, v, l, lobes) * e;
           }
-        } else {
+        }
+        if (ambient) {
           float nv = clamp(dot(ns, v), 0.0, 1.0), open = light6.w;
           vec3 r = reflect(-v, ns);
-          diffuse = ambientDiffuse(nd);
+          diffuse += ambientDiffuse(nd);
           for (int k = 0; k < 2; k++) {
             float alpha = k == 0 ? lobes.x : lobes.y, share = k == 0 ? lobes.z : 1.0 - lobes.z;
             specular += share * filtered(r, alpha) * reflectance(nv, alpha) * unblocked(nv, open, alpha);
@@ -176,7 +177,7 @@
     blending: THREE.NoBlending,
     uniforms: Object.fromEntries(Object.entries({
       albedoMap: blank, diffuseNormalMap: blank, specularNormalMap: blank, roughnessMap: blank, valueMap: blank,
-      truthMap: blank, shadowMap: blank, prefiltered: blank, mode: 0, channel: 0, linear: false, bright: true,
+      truthMap: blank, shadowMap: blank, prefiltered: blank, mode: 0, channel: 0, linear: false, bright: true, ambient: false,
       exposure: 1, factor: 1, bottom: 0, top: 1, shadowTexel: 0, lampTangent: 1,
       lamp: new THREE.Vector3(), lampIntensity: new THREE.Vector3(), lampForward: new THREE.Vector3(),
       lampRight: new THREE.Vector3(), lampUp: new THREE.Vector3(),

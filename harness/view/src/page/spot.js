@@ -164,8 +164,11 @@
     const region = label ? scene.label_names[label.codes[ly * label.width + lx]] ?? "no label" : "";
     const [x, y] = panes[0].texels.diffuse_albedo, size = panes[0].pane.maps.find(([name]) => name === "diffuse_albedo")[1].width;
     const step = panes[0].pane.step, mm = place.position.toArray().map((v) => (1000 * v).toFixed(1)).join(", ");
-    const share = light ? `${Math.round(100 * view.reaching(light.model, visible, place))} % of the light reaches it` : "";
-    const parts = [`<p class="facts">texel ${x * step}, ${y * step} of ${size * step}², ${region ? escaped(region) + ", " : ""}at (${mm}) mm${share ? ", " + share : ""}</p>`];
+    const reaching = light && view.irradiance(light.model, visible, place);
+    const share = reaching?.all > 0 ? `the head blocks ${Math.round(100 * (1 - reaching.open / reaching.all))} % of its light` : "";
+    const irradiance = light && reaching.open * view.exposureOf(head, light.model.radiance) / Math.PI;
+    const answer = view.answer({ panes, truth, factors, observations, predicted, views: scene.views.list.length, irradiance });
+    const parts = [`<ul class="answer">${answer.found.map((line) => `<li>${escaped(line)}</li>`).join("")}</ul><p class="facts">texel ${x * step}, ${y * step} of ${size * step}², ${region ? escaped(region) + ", " : ""}${view.facing(place.normal)}, at (${mm}) mm${share ? ", " + share : ""}</p>`];
     parts.push(table(panes, truth, factors));
     if (observations.length) {
       const key = predicted.map(({ pane, ink, mark }) => `<span style="color:${ink}">${mark} ${escaped(pane.title)}</span>`).join(" ");
@@ -173,16 +176,19 @@
         <p class="caption">Luminance against the angle between view and normal. Line: observed. ${key}: hollow, the diffuse part; filled, with the specular part. ${light
           ? `Predicted by this page: ${escaped(light.title)}, direct light only, albedo after its one factor.`
           : escaped(scene.moving_light ?? "no light is known") + "; nothing is predicted."}</p><div class="crops"></div>`);
-    } else {
-      parts.push("<p class=\"notice\">No training view sees this texel: its values are filled in or extrapolated.</p>");
     }
     element.innerHTML = parts.join("");
     const cards = element.querySelector(".crops");
+    if (answer.clearest !== null) {
+      const look = Object.assign(document.createElement("button"), { type: "button", textContent: "look from there" });
+      look.addEventListener("click", () => jump(observations[answer.clearest].camera));
+      element.querySelector(".answer").lastElementChild.append(" ", look);
+    }
     observations.forEach((each, i) => {
       const { camera, cosine, weight, radiance } = each, seen = view.luminance(radiance);
       const card = document.createElement("button"), canvas = document.createElement("canvas");
       card.type = "button";
-      card.className = "card";
+      card.className = i === answer.clearest ? "card clearest" : "card";
       crop(canvas, each, exposure);
       const residuals = predicted.map(({ parts: found, ink, mark }) => {
         const rest = seen - view.luminance(found[i].diffuse) - view.luminance(found[i].specular);
@@ -196,6 +202,6 @@
       card.addEventListener("click", () => jump(camera));
       cards.append(card);
     });
-    return { observations, predicted, panes };
+    return { observations, predicted, panes, answer };
   };
 })();
