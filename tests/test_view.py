@@ -160,8 +160,8 @@ def test_a_click_tells_the_values_of_the_files(head: Head, tiny_run: Path) -> No
             picture = picture.reshape(*picture.shape[:2], -1)
             side = len(picture)
             expected = picture[min(side - 1, int((1 - v) * side)), min(side - 1, int(u * side))]
-            # Half floats of an albedo, and of a normal's largest component.
-            step = 2.0**-14 if "albedo" in name else 2.0**-9 if name == "confidence" else 2.0**-12
+            # Half floats of an albedo; the steps of folded directions, and of confidence.
+            step = 2.0**-14 if "albedo" in name else 2.0**-9 if name == "confidence" else 2.0**-11
             np.testing.assert_allclose(found, expected[: len(found)], atol=step * 1.001, rtol=2.0**-11)
     observed = head.page.run("unshadeView.told.observations.map(({ radiance, weight }) => ({ radiance, weight }))")
     assert 0 < len(observed) <= 4 and sum(each["weight"] for each in observed) == pytest.approx(1)
