@@ -114,8 +114,9 @@ impl Array {
                 codes.extend([NO_VECTOR; 2]);
                 continue;
             }
-            // Not a number is not near 1 either.
-            if !((length - 1.0).abs() < 0.01) {
+            // False for what is not a number, too.
+            let is_unit = (length - 1.0).abs() < 0.01;
+            if !is_unit {
                 return None;
             }
             let sum = x.abs() + y.abs() + z.abs();
