@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import warnings
 from pathlib import Path
 from typing import Any
@@ -98,6 +99,12 @@ def test_maps_return_to_the_own_uv(scan: Path, tmp_path: Path) -> None:
     error = np.abs(read_rgb(tmp_path / "own" / "diffuse_albedo.exr")[theirs.inside] - expected)
     # A texel of the new UV spans 0.006 of the colour; without resampling the median error is 0.1.
     assert np.percentile(error, 99) < 0.01
+    # And back: an albedo alone, on the mesh in its own unit.
+    (tmp_path / "theirs").mkdir()
+    shutil.copy(tmp_path / "own" / "diffuse_albedo.exr", tmp_path / "theirs")
+    unshade.import_maps(tmp_path / "theirs", tmp_path / "back", capture=capture, mesh=scan / "head.obj", adapter="unshade")  # fmt: skip
+    back = unshade.Maps.read(tmp_path / "back").diffuse_albedo
+    assert back is not None and np.percentile(np.abs(back - albedo)[texels.inside], 99) < 0.02
     surface = onto_mesh(
         read_surface(tmp_path / "maps", tmp_path / "capture", None, print), tmp_path / "capture", scan / "head.obj"
     )

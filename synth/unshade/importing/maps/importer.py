@@ -241,7 +241,7 @@ class _Chart:
                 texture.scale
             )
         self._specular(maps)
-        if "roughness" in stated and stated["roughness"].kind == "lobes":
+        if "roughness" in self.codes and stated["roughness"].kind == "lobes":
             maps["roughness"] = self._at(self.codes["roughness"].values)
         elif "roughness" in stated and (values := self._scalar("roughness")) is not None:
             one = decoding.alpha(values, stated["roughness"].kind)
