@@ -17,6 +17,7 @@ mod light_colour;
 mod light_rotation;
 mod matrix;
 mod reflection;
+mod shadow_edge;
 pub mod skin;
 mod sky;
 mod some_rows;

@@ -37,9 +37,8 @@ fn an_open_box_gathers_bounced_light() {
     assert!((often - 1.0).abs() < 0.03, "{often}");
 }
 
-#[test]
-fn a_wall_shadows_the_floor_from_one_side() {
-    // A floor in y = 0 seen from above and a wall along its edge at x = 1, both in the chart.
+/// A floor in y = 0 seen from above and a wall along its edge at x = 1, both in the chart.
+fn floor_and_wall() -> Mesh {
     let square = testing::square();
     let floor = square.positions.iter().map(|p| Vec3::new(p.x, 0.0, -p.y));
     let wall = square.positions.iter().map(|p| Vec3::new(1.0, 1.0 + p.y, p.x));
@@ -50,6 +49,12 @@ fn a_wall_shadows_the_floor_from_one_side() {
         |shift: f32| square.uvs.iter().map(move |uv| glam::Vec2::new(0.45 * uv.x + shift, uv.y));
     mesh.uvs = half(0.0).chain(half(0.55)).collect();
     mesh.triangles = vec![[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]];
+    mesh
+}
+
+#[test]
+fn a_wall_shadows_the_floor_from_one_side() {
+    let mesh = floor_and_wall();
     let config = TransportConfig { bounces: 0, ..config(32) };
     let transport = plain(&mesh, &config, 0);
     let light_from = |x: f32| {
@@ -223,4 +228,35 @@ fn the_peak_is_the_largest_unoccluded_shading() {
     let light = vec![0.7; CHANNELS * transport.cells()];
     let peak = transport.peak(&light);
     assert!((peak - 0.7).abs() < 0.03, "{peak}");
+}
+
+#[test]
+fn the_edge_of_a_lamps_shadow_is_uncertain_and_a_uniform_sky_has_none() {
+    let config = TransportConfig { bounces: 0, rays_per_cell_side: 4, ..config(32) };
+    let transport = plain(&floor_and_wall(), &config, 0);
+    let lamp = Sky::lat_long(config.rows).rays(1, 0).into_iter().position(|ray| {
+        ray.direction.x > 0.75 && ray.direction.y > 0.5 && ray.direction.z.abs() < 0.2
+    });
+    let lamp = CHANNELS * lamp.unwrap();
+    let mut light = vec![0.0; CHANNELS * transport.cells()];
+    light[lamp..lamp + CHANNELS].fill(1.0);
+    let (shading, edges) = (transport.shading(&light), transport.shadow_edges(&light));
+    let floor = |texel: usize| texel % 32 < 14;
+    let shadings = || shading.iter().step_by(CHANNELS).enumerate().filter(|(at, _)| floor(*at));
+    let most = shadings().map(|(_, s)| *s).fold(0.0, f32::max);
+    let mut counts = [0; 3];
+    for (at, s) in shadings() {
+        // Inside and outside of the shadow nothing is uncertain; half hidden, half of the lamp's light is.
+        let (part, edge) = (s / most, edges[at] / most);
+        match part {
+            _ if part < 0.02 => counts[0] += 1,
+            _ if part > 0.98 => counts[1] += 1,
+            _ => counts[2] += usize::from((0.3..0.7).contains(&part)),
+        }
+        assert!(edge < 0.65 && (!(0.3..0.7).contains(&part) || edge > 0.3), "{part}: {edge}");
+        assert!((0.02..0.98).contains(&part) || edge < 0.2, "{part}: {edge}");
+    }
+    assert!(counts.iter().all(|count| *count > 5), "{counts:?}");
+    let uniform = transport.shadow_edges(&vec![1.0; CHANNELS * transport.cells()]);
+    assert!(uniform.iter().all(|edge| *edge < 0.05));
 }

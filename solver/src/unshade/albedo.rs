@@ -103,13 +103,21 @@ pub(super) fn fit_albedo(
     let model = Model {
         shading: &shading,
         shading_with_derivative: &shading_with_derivative,
+        shadow_edges: &lighting.shadow_edges(samples),
         albedo: &albedo,
         target: &target,
     };
     let weight = model.weights(&config.model_error, lighting.fold_disagreement, samples);
+    let known_parts = model.known_parts(&config.model_error, lighting.fold_disagreement);
     let weight = Planes::from_fn(samples.len(), |i| {
-        let hair = face.hair_in_skin.contains(&regions[samples.taps.nearest(i)]);
-        [weight.get(0, i) / if hair { PRIOR_OF_HAIR_IN_SKIN } else { 1.0 }]
+        let region = regions[samples.taps.nearest(i)];
+        let factor = match region {
+            hair if face.hair_in_skin.contains(&hair) => PRIOR_OF_HAIR_IN_SKIN.recip(),
+            // Other regions vary too much for the prior.
+            skin if face.skin.contains(&skin) => known_parts.get(0, i),
+            _ => 1.0,
+        };
+        [factor * weight.get(0, i)]
     });
     // Only what the fit reads.
     let diffuse_samples = Samples {
@@ -152,12 +160,31 @@ struct Model<'a> {
     shading: &'a Planes,
     /// See [`Lighting::shading_with_derivative`].
     shading_with_derivative: &'a Planes,
+    /// See [`Lighting::shadow_edges`].
+    shadow_edges: &'a Planes,
     albedo: &'a Planes,
     /// The pictures without highlights.
     target: &'a Planes,
 }
 
 impl Model<'_> {
+    /// How much of the shading of every sample is known, 0 to 1: 1 / (1 + r^2)^2, where r is the error of the shading in
+    /// shadow and at the edges of shadows over the shading. Errors in a shadow are alike in all of its samples, which
+    /// together would outweigh any prior.
+    fn known_parts(&self, errors: &ModelErrorConfig, fold_disagreement: f32) -> Planes {
+        let shadow = shadow_error(errors, fold_disagreement) * self.mean_shading();
+        Planes::from_fn(self.shading.len(), |i| {
+            let error = shadow.hypot(self.shadow_edges.get(0, i));
+            let relative = error / self.shading.get(GREEN, i).max(f32::MIN_POSITIVE);
+            [(1.0 + relative * relative).recip().powi(2)]
+        })
+    }
+
+    fn mean_shading(&self) -> f32 {
+        let shadings = (0..self.shading.len()).map(|i| self.shading.get(GREEN, i));
+        shadings.sum::<f32>() / self.shading.len().max(1) as f32
+    }
+
     /// The weights of the samples over the error of the diffuse layer, which is the albedo times the error of the
     /// shading. The error of the shading is about as large in shadow as in light and grows with the disagreement of the
     /// folds ([`super::two_fold`]), with the shading's derivative and with the highlight. The prior therefore dominates
@@ -169,7 +196,7 @@ impl Model<'_> {
         samples: &Samples,
     ) -> Planes {
         let count = samples.len().max(1) as f32;
-        let mean = (0..samples.len()).map(|i| self.shading.get(GREEN, i)).sum::<f32>() / count;
+        let mean = self.mean_shading();
         let shadow = shadow_error(errors, fold_disagreement);
         let albedo = |i: usize| self.albedo.get(GREEN, i).max(LEAST_DIVISOR);
         let mean_albedo = (0..samples.len()).map(albedo).sum::<f32>() / count;
@@ -184,6 +211,7 @@ impl Model<'_> {
                 errors.normal * slope,
                 errors.highlights * highlight / albedo(i),
                 shadow * mean,
+                self.shadow_edges.get(0, i),
             ];
             let error = errors_of_parts.map(|error| error * error).iter().sum::<f32>().sqrt();
             [samples.weight.get(0, i) * errors.shadow * mean / error * mean_albedo / albedo(i)]
@@ -196,8 +224,8 @@ mod tests {
     use super::*;
     use crate::config::UnshadeConfig;
 
-    /// Weights of two samples, of these shadings and albedos, without highlights.
-    fn weights(shading: [f32; 2], albedo: [f32; 2], fold_disagreement: f32) -> [f32; 2] {
+    /// Weights and known parts of two samples, of these shadings and albedos, without highlights.
+    fn weighed(shading: [f32; 2], albedo: [f32; 2], fold_disagreement: f32) -> [[f32; 2]; 2] {
         let planes = |values: [f32; 2]| Planes::from_fn(2, |i| [values[i]; CHANNELS]);
         let black = planes([0.0; 2]);
         let samples = Samples {
@@ -212,12 +240,26 @@ mod tests {
         let model = Model {
             shading: &shading,
             shading_with_derivative: &flat,
+            shadow_edges: &Planes::from_fn(2, |_| [0.0]),
             albedo: &albedo,
             target: &black,
         };
-        let weights =
-            model.weights(&UnshadeConfig::default().model_error, fold_disagreement, &samples);
-        [0, 1].map(|i| weights.get(0, i))
+        let errors = UnshadeConfig::default().model_error;
+        let weights = model.weights(&errors, fold_disagreement, &samples);
+        let known = model.known_parts(&errors, fold_disagreement);
+        [weights, known].map(|planes| [0, 1].map(|i| planes.get(0, i)))
+    }
+
+    fn weights(shading: [f32; 2], albedo: [f32; 2], fold_disagreement: f32) -> [f32; 2] {
+        weighed(shading, albedo, fold_disagreement)[0]
+    }
+
+    #[test]
+    fn skin_is_known_in_light_and_not_in_shadow() {
+        let [_, [dark, lit]] = weighed([0.02, 1.98], [0.2; 2], 0.05);
+        assert!(dark < 1e-4 && lit > 0.9, "{dark} {lit}");
+        let [_, [dim, _]] = weighed([0.25, 1.75], [0.2; 2], 0.05);
+        assert!((dim - 0.25).abs() < 1e-6, "as large an error as the shading: {dim}");
     }
 
     #[test]

@@ -127,6 +127,17 @@ impl<'a> Lighting<'a> {
             part.samples(samples).taps.sample::<SHADING_ROWS>(&interleave::<SHADING_ROWS>(&rows))
         })
     }
+
+    /// The error of S_d at the edges of shadows, at every sample; see [`Transport::shadow_edges`].
+    pub fn shadow_edges(&self, samples: &Samples) -> Planes {
+        let parts = self.illuminations.parts(samples);
+        by_parts::<1>(&parts, samples.len(), |_, part| {
+            let light = self.illuminations.light(&self.radiance, part.illumination);
+            let edges = self.transport.shadow_edges(&light);
+            let edges = resample(&edges, self.size(), 1, samples.taps.size());
+            part.samples(samples).taps.sample::<1>(&edges)
+        })
+    }
 }
 
 /// Rows of [`Lighting::shading_with_derivative`]: S_d (3), its derivatives with respect to the normal (9).
