@@ -235,7 +235,7 @@ fn the_edge_of_a_lamps_shadow_is_uncertain_and_a_uniform_sky_has_none() {
     let config = TransportConfig { bounces: 0, rays_per_cell_side: 4, ..config(32) };
     let transport = plain(&floor_and_wall(), &config, 0);
     let lamp = Sky::lat_long(config.rows).rays(1, 0).into_iter().position(|ray| {
-        ray.direction.x > 0.75 && ray.direction.y > 0.5 && ray.direction.z.abs() < 0.2
+        ray.direction.x > 0.35 && ray.direction.y > 0.8 && ray.direction.z.abs() < 0.1
     });
     let lamp = CHANNELS * lamp.unwrap();
     let mut light = vec![0.0; CHANNELS * transport.cells()];
