@@ -52,7 +52,7 @@ class Results:
     def __init__(self, file: Path) -> None:
         with file.open(newline="") as lines:
             found = list(csv.DictReader(lines))
-        # The size of the textures is no part of a method's name here.
+        # Pages name a method without the size of its textures.
         self._lines = {(line["light"], line["method"].split(" (512²")[0], line["row"]): line for line in found}
         self.faces = max(int(line["faces"]) for line in found)
 
@@ -163,7 +163,7 @@ def by_light(results: Results, title: str, row: str, methods: tuple[str, ...]) -
 
 
 def of_unshade(results: Results) -> Table:
-    """What else docs/summary.md has of the default solver."""
+    """The further scores of the default solver in docs/summary.md."""
     heading = ["`unshade`", "albedo, 95 % over faces", "range over faces", "as is", "relit: own light"]
     heading += ["specular normal / mesh's", "highlights: correlation, energy"]
     rows: list[list[str]] = []

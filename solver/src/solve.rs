@@ -58,12 +58,12 @@ pub fn seconds_on_two_cores(config: &Config, extent: &Extent) -> f64 {
     plan(config, extent).iter().map(Work::seconds).sum()
 }
 
-/// The highlights of every training view, as a fast solve of a capture predicts them.
+/// The highlights of every training view, as a fast solve of a capture predicts them, and whether it was interrupted.
 fn highlights(
     backend: &dyn Backend,
     capture: &Capture,
     progress: &mut Callback,
-) -> Result<Vec<Picture>, SolveError> {
+) -> Result<(Vec<Picture>, bool), SolveError> {
     let config = Config::from_toml("base = \"fast\"\n[records]\nlayers = true\n")?;
     let mut highlights = BTreeMap::new();
     let mut sink = |view: &ViewLayers| {
@@ -75,10 +75,11 @@ fn highlights(
         Ok(())
     };
     let options = Options { checkpoint: None, layers: Some(&mut sink) };
-    solve_on(backend, capture, &config, options, progress)?;
+    let solution = solve_on(backend, capture, &config, options, progress)?;
     let empty = |camera: &Camera| Picture::new(camera.width, camera.height, 3);
     let of_view = |view: &View| highlights.remove(&view.camera.name).unwrap_or(empty(&view.camera));
-    Ok(capture.train.iter().map(of_view).collect())
+    let pictures = capture.train.iter().map(of_view).collect();
+    Ok((pictures, solution.record.interrupted.is_some()))
 }
 
 /// The steps and costs of the stages.
@@ -113,9 +114,6 @@ pub fn solve_on(
     progress: &mut Callback,
 ) -> Result<Solution, SolveError> {
     config.validate()?;
-    let (capture, gains) =
-        exposure::evened_without_highlights(capture, |even| highlights(backend, even, progress))?;
-    let capture = &*capture;
     if matches!(config, Config::Paper(_)) && !capture.truth.parts.is_empty() {
         return Err(SolveError::GivenToOther);
     }
@@ -127,6 +125,13 @@ pub fn solve_on(
     }
     let estimate = Estimate::new(capture, config);
     estimate.fits(memory::available())?;
+    let mut is_whole = true;
+    let (capture, gains) = exposure::evened_without_highlights(capture, |even| {
+        let (pictures, interrupted) = highlights(backend, even, progress)?;
+        is_whole = !interrupted;
+        Ok(pictures)
+    })?;
+    let capture = &*capture;
     let _kept = memory::KeepFreedMemory::begin();
     let Estimate { views, pixels, texture_size, .. } = estimate;
     let plan = plan(config, &Extent { views, pixels, texture_size });
@@ -135,7 +140,9 @@ pub fn solve_on(
         Config::Unshade(_) => 1.0,
         Config::Paper(config) => config.adam.final_decay,
     };
-    let checkpoint = options.checkpoint.map(|checkpoint| checkpoint.of(capture, config, backend));
+    // Gains without all highlights differ from those of the same call that is not interrupted.
+    let checkpoint = options.checkpoint.filter(|_| is_whole);
+    let checkpoint = checkpoint.map(|checkpoint| checkpoint.of(capture, config, backend));
     let mut run = Run::new(plan, final_decay, backend, checkpoint, progress);
     let results = match config {
         Config::Unshade(config) => unshade::solve(capture, config, &mut run, options.layers)?,

@@ -250,7 +250,7 @@ pub(super) fn resolve(from: &Path, key: &str, value: Value) -> Result<Table, Sce
     Ok(table)
 }
 
-/// What [`resolve`] reads but for the lights of a light that is several, and the file in which it stands.
+/// Reads one table like [`resolve`], without the lights that it lists. Returns it with the file that holds it.
 fn resolve_single(from: &Path, key: &str, value: Value) -> Result<(Table, PathBuf), SceneError> {
     let (mut table, origin) = match value {
         Value::Table(table) => (table, from.to_path_buf()),

@@ -46,21 +46,21 @@ def import_capture(
 
     ``mesh`` is an OBJ with texture coordinates, of which ``objects`` are the face, or ``hull``: the visual hull of
     the masks. ``uv`` is ``auto`` (a mesh without texture coordinates, or with a hundred islands of them or more, is
-    unwrapped), ``keep`` or ``new``. ``pictures`` is the folder of the photographs, where the files do not name it. ``masks`` is a folder of
-    masks, ``alpha`` (that of the photographs), ``silhouette`` (of the mesh) or ``grabcut`` (what differs from the
-    surroundings of the place that the cameras look at); by default those that the file names, else alpha, else the
-    silhouette, or for a hull ``grabcut``. ``labels`` is a folder of a face parser's pictures and ``parser`` its name or a JSON file of
-    names by id. ``curve`` is the photographs' transfer curve (``auto``, ``srgb``, ``linear``, ``rec709``,
-    ``gamma=2.2``), ``brackets`` how many exposures each view has, ``even_exposure`` divides by what EXIF
-    says the camera let through, ``unknown_exposure`` states that exposure and white balance differ by unknown factors,
-    which a solve estimates. ``frames`` chooses so many frames of a video, sharp ones from all sides. ``holdout`` withholds every n-th view (from the n-th on) or those named;
-    ``shrink`` averages so many pixels a side. ``unit`` (``m``, ``cm``, ``mm``, ``dm``, ``in``) is the
-    source's; ``place`` is ``auto``, ``keep`` or ``cameras`` (upright by the cameras), ``front`` the name of a
-    view that looks at the face, where cameras stand all round. If one change of a
-    convention makes masks and mesh fit, ``apply`` makes it; without it that change is the error. ``skip_missing``
-    leaves out views whose photograph or mask is missing, ``leave_out`` those named. ``light_frame`` is ``camera`` if the
-    light stands still with respect to the camera (a head that turns in a room, or a lamp on the camera), by default what
-    the file states, else ``head``.
+    unwrapped), ``keep`` or ``new``. ``pictures`` is the folder of the photographs, where the files do not name it.
+    ``masks`` is a folder of masks, ``alpha`` (that of the photographs), ``silhouette`` (of the mesh) or ``grabcut``
+    (what differs from the surroundings of the place that the cameras look at); by default those that the file names,
+    else alpha, else the silhouette, or for a hull ``grabcut``. ``labels`` is a folder of a face parser's pictures and
+    ``parser`` its name or a JSON file of names by id. ``curve`` is the photographs' transfer curve (``auto``, ``srgb``,
+    ``linear``, ``rec709``, ``gamma=2.2``), ``brackets`` how many exposures each view has, ``even_exposure`` divides by
+    what EXIF says the camera let through, ``unknown_exposure`` states that exposure and white balance differ by unknown
+    factors, which a solve estimates. ``frames`` chooses so many frames of a video, sharp ones from all sides.
+    ``holdout`` withholds every n-th view (from the n-th on) or those named; ``shrink`` averages so many pixels a side.
+    ``unit`` (``m``, ``cm``, ``mm``, ``dm``, ``in``) is the source's; ``place`` is ``auto``, ``keep`` or ``cameras``
+    (upright by the cameras), ``front`` the name of a view that looks at the face, where cameras stand all round. If one
+    change of a convention makes masks and mesh fit, ``apply`` makes it; without it that change is the error.
+    ``skip_missing`` leaves out views whose photograph or mask is missing, ``leave_out`` those named. ``light_frame`` is
+    ``camera`` if the light stands still with respect to the camera (a head that turns in a room, or a lamp on the
+    camera), by default what the file states, else ``head``.
 
     Raises `CaptureError`, `PictureError` or `StorageError`.
     """

@@ -108,7 +108,8 @@ pub(super) fn relit_rows(
 }
 
 /// Rows of pictures in `folder` against photographs: a method's views, or its maps relit in the light
-/// that it found; none if there is no such folder. `own_gains`: each picture has its photograph's exposure.
+/// that it found. Without such a folder there are no rows. With `own_gains`, each picture is compared after the factor
+/// of each channel that fits its photograph.
 pub(super) fn photograph_rows(
     frames: &[Frame],
     photographs: &Path,
