@@ -1,9 +1,10 @@
 use std::fs;
+use std::ops::ControlFlow;
 
 use serde_json::{Value, json};
 
 use super::*;
-use crate::{test_scene, testing};
+use crate::{Config, test_scene, testing};
 
 /// Gains of five training views and a withheld one, with a mean logarithm of 0 over the five.
 const STOPS: [[f32; 3]; 5] =
@@ -75,4 +76,22 @@ fn a_moving_light_of_unknown_exposure_is_refused() {
     assert!(error.contains("exposure is \"unknown\", but the light moves"), "{error}");
     let error = edited(|document| document["exposure"] = json!(2), 1).unwrap_err().to_string();
     assert!(error.contains("exposure is 2; write"), "{error}");
+}
+
+/// What a resumed solve would continue was fitted under other gains.
+#[test]
+fn an_interrupt_while_gains_are_estimated_leaves_no_checkpoint() {
+    let folder = tempfile::tempdir().unwrap();
+    let maps = folder.path().join("maps");
+    let (capture, known) =
+        [unknown, |_: &mut Value| ()].map(|edit| edited(edit, 1).unwrap()).into();
+    for (capture, has_checkpoint) in [(capture, false), (known, true)] {
+        let backend = crate::Choice::Cpu.open().unwrap();
+        let config = Config::preset("fast").unwrap();
+        let stop = &mut |_: &crate::Progress| ControlFlow::Break(());
+        let solution =
+            crate::solve_into(&*backend, &maps, "tests", &capture, &config, stop).unwrap();
+        assert!(solution.record.interrupted.is_some());
+        assert_eq!(folder.path().join("maps.checkpoint").exists(), has_checkpoint);
+    }
 }
