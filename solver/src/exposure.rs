@@ -3,7 +3,9 @@
 //! Under a light that stands still, a diffuse surface point has one radiance in all views. So the logarithm of a channel
 //! is a constant of the point plus a constant of the view, the logarithm of its gain:
 //!
-//!     log picture(point, view) = radiance(point) + gain(view)
+//! ```text
+//! log picture(point, view) = radiance(point) + gain(view)
+//! ```
 //!
 //! Both are fitted by least squares with Tukey's weights, which reject highlights and errors of registration. The gauge
 //! is a mean of 0 of the logarithms over the views: the exposure of the capture is the geometric mean of theirs.
