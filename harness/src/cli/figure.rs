@@ -45,6 +45,8 @@ enum KindName {
     Fig10,
     /// The gain of each method or variant over the first one.
     Ablations,
+    /// The gain of a solver that is given parts of the truth, by light.
+    Bias,
     /// Albedo and relighting over exposure, specular reflectance and roughness, by skin.
     Robustness,
     /// The gain from one method to the next, with the flat map and the oracle as bounds.
@@ -63,6 +65,7 @@ impl KindName {
             Self::Fig9 => FigureKind::Emily,
             Self::Fig10 => FigureKind::Decomposition,
             Self::Ablations => FigureKind::Ablations,
+            Self::Bias => FigureKind::Bias,
             Self::Robustness => FigureKind::Robustness,
             Self::Waterfall => FigureKind::Waterfall,
             Self::Detail => FigureKind::Detail,

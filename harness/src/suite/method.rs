@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use capture::TruthPart;
 use serde::Deserialize;
 use solver::{BackendError, Choice};
 use toml::{Table, Value};
@@ -25,6 +26,8 @@ pub struct SolverMethod {
     pub config: String,
     /// The device that computes.
     pub backend: Choice,
+    /// Parts that it holds at their truth, which makes it privileged.
+    pub given: Vec<TruthPart>,
 }
 
 /// A method that comes with unshade and is not a configuration of its solver.
@@ -105,6 +108,9 @@ struct MethodTable {
     /// Seeds: the method is run once with each.
     seeds: Option<Value>,
     backend: Option<String>,
+    /// Parts of the truth that our own solver holds fixed.
+    #[serde(default)]
+    given: Vec<String>,
     command: Option<CommandLine>,
     python: Option<String>,
     /// Side of the textures of a baseline, or of a program that gives pictures.
@@ -196,6 +202,7 @@ fn method_of(path: &Path, table: MethodTable) -> Result<Method, SceneError> {
                         SceneError::in_table(path, name, "backend", error.to_string())
                     },
                 )?,
+                given: table.truth_parts(path)?,
             }),
         },
     };
@@ -263,6 +270,13 @@ impl MethodTable {
         }))
     }
 
+    /// The parts that our own solver holds at their truth.
+    fn truth_parts(&self, path: &Path) -> Result<Vec<TruthPart>, SceneError> {
+        let part = |name: &String| format!("{name}=truth").parse();
+        let parts: Result<_, String> = self.given.iter().map(part).collect();
+        parts.map_err(|reason| SceneError::in_table(path, &self.name, "given", reason))
+    }
+
     /// Side of what is projected into the texture, texels.
     fn texture_size(&self, path: &Path) -> Result<usize, SceneError> {
         let size = self.texture_size.unwrap_or(BaselineMethod::TEXTURE_SIZE);
@@ -285,6 +299,7 @@ impl MethodTable {
             sweep,
             seeds,
             backend,
+            given: truth,
             command,
             python,
             texture_size,
@@ -317,6 +332,7 @@ impl MethodTable {
             ("sweep", !sweep.is_empty(), fields || competitor || foreign),
             ("seeds", seeds.is_some(), fields || foreign),
             ("backend", backend.is_some(), fields),
+            ("given", !truth.is_empty(), fields),
             ("texture_size", texture_size.is_some(), if foreign { pictures } else { baseline }),
             ("gives", gives.is_some(), foreign),
             ("timeout_s", timeout_s.is_some(), foreign),

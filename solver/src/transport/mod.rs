@@ -66,6 +66,8 @@ pub struct Transport {
     visible_solid_angle: Matrix,
     /// The unit of relative nearness, per metre.
     nearness_unit: f32,
+    /// The sky's centre: that of the mesh's bounding box.
+    centre: Vec3,
     /// The position of every row from the sky's centre, metres.
     places: Vec<Vec3>,
     normals: Vec<Vec3>,
@@ -147,6 +149,7 @@ impl Transport {
             by_nearness,
             visible_solid_angle,
             nearness_unit,
+            centre: caster.centre,
             places,
             normals,
             sky,
@@ -177,6 +180,11 @@ impl Transport {
     /// The inverse radius of the sky for which the rays were cast, per metre.
     pub fn nearness_per_metre(&self) -> f32 {
         self.sky.nearness
+    }
+
+    /// The sky's centre.
+    pub fn centre(&self) -> Vec3 {
+        self.centre
     }
 
     /// The unit of relative nearness, per metre: the nearness of a sphere around the head of about one metre.

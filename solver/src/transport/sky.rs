@@ -64,25 +64,22 @@ impl Sky {
         Self { cells: (0..rows * columns).map(cell).collect(), nearness: 0.0 }
     }
 
-    /// The mean radiance of every cell, R, G, B, in a lat-long picture whose first and last row lie on the poles.
-    pub fn means(&self, picture: &Picture) -> Vec<f32> {
-        let mean = |cell: &Cell| {
-            let ([top, bottom], [left, right]) = (cell.polar.map(f64::cos), cell.azimuth);
-            let along = |at: usize, from: f64, to: f64| {
-                from + (to - from) * (at as f64 + 0.5) / POINTS as f64
-            };
+    /// The mean radiance of every cell, R, G, B, in a lat-long picture whose first and last row lie on the poles. The
+    /// picture is seen from a point from which the sky's centre lies at `shift`, in units of the distance of the light.
+    pub fn means(&self, picture: &Picture, shift: DVec3) -> Vec<f32> {
+        let mean = |directions: &[DVec3]| {
             let mut sums = [0.0_f64; CHANNELS];
-            for at in 0..POINTS * POINTS {
-                let polar = along(at / POINTS, top, bottom).acos();
-                let azimuth = along(at % POINTS, left, right);
+            for direction in directions {
+                let DVec3 { x, y, z } = (*direction + shift).normalize();
+                let (polar, azimuth) = (y.clamp(-1.0, 1.0).acos(), x.atan2(-z).rem_euclid(TAU));
                 let row = (polar / PI * (picture.height - 1) as f64).round() as usize;
                 let column = (azimuth / TAU * picture.width as f64) as usize % picture.width;
                 let radiance = &picture.pixel(column, row)[..CHANNELS];
                 sums.iter_mut().zip(radiance).for_each(|(sum, value)| *sum += f64::from(*value));
             }
-            sums.map(|sum| (sum / (POINTS * POINTS) as f64) as f32)
+            sums.map(|sum| (sum / directions.len() as f64) as f32)
         };
-        self.cells.iter().flat_map(mean).collect()
+        self.points(POINTS).chunks_exact(POINTS * POINTS).flat_map(mean).collect()
     }
 
     /// Moves these cells to a sphere of another nearness.
@@ -217,9 +214,12 @@ mod tests {
             picture.pixel_mut(x, y).copy_from_slice(&(Vec3::ONE + 0.5 * d).to_array());
         }
         let sky = Sky::lat_long(8);
-        for (mean, centre) in sky.means(&picture).chunks_exact(CHANNELS).zip(sky.centres()) {
-            let expected = Vec3::ONE + 0.5 * centre;
-            assert!(Vec3::from_slice(mean).distance(expected) < 0.06, "{centre}: {mean:?}");
+        for shift in [DVec3::ZERO, DVec3::new(0.3, -0.2, 0.1)] {
+            let means = sky.means(&picture, shift);
+            for (mean, centre) in means.chunks_exact(CHANNELS).zip(sky.centres()) {
+                let expected = Vec3::ONE + 0.5 * (centre + shift.as_vec3()).normalize();
+                assert!(Vec3::from_slice(mean).distance(expected) < 0.06, "{centre}: {mean:?}");
+            }
         }
     }
 

@@ -58,7 +58,10 @@ impl<'a> Known<'a> {
         let light = self.truth.light.as_ref()?;
         let nearness = light.distance.map_or(0.0, f32::recip);
         let sky = Sky::lat_long(rows);
-        let cells: Vec<f32> = light.pictures.iter().flat_map(|one| sky.means(one)).collect();
+        // The picture is seen from the origin, the cells from the centre of the mesh.
+        let shift = (nearness * far.centre()).as_dvec3();
+        let means = |picture: &Picture| sky.means(picture, shift);
+        let cells: Vec<f32> = light.pictures.iter().flat_map(means).collect();
         let relative = nearness / far.nearness_unit();
         let mean = |illumination: usize| {
             let light = illuminations.light(&cells, illumination);

@@ -113,10 +113,7 @@ pub(super) fn fit_light(
     let log_light: Vec<f32> = cells.map(|(log, tint)| log + tint.ln()).collect();
     let albedo = without_tint(data.region_colours, &tint);
     Ok(LightEstimate {
-        fold_disagreement: match has_light {
-            true => f32::MIN_POSITIVE,
-            false => fold_disagreement(far, lights, &folds, relative_nearness),
-        },
+        fold_disagreement: fold_disagreement(far, lights, &folds, relative_nearness),
         folds,
         nearness_per_metre: relative_nearness * far.nearness_unit(),
         bounce_albedo: bounce_albedo(lights.peak(far, &exp(&log_light)), &albedo),

@@ -9,6 +9,8 @@ use super::source::{CaseSource, Sources};
 use super::statistics::{Mean, over_faces};
 use crate::error::ReportError;
 use crate::exports::Export;
+use crate::run::Kind;
+use crate::table::Column;
 
 /// A method in a variant.
 #[derive(Clone, PartialEq)]
@@ -21,19 +23,77 @@ struct Setting {
 /// A number of a setting in a case: the face, what makes the case the same one elsewhere, the value.
 type Found = (String, String, f64);
 
+/// Ablations: the passive solvers over all lights.
 pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), ReportError> {
+    let wanted = "a second method or variant of a solver";
+    let first = compare(sources, drawing, wanted, |column| sources.shows(column), false)?;
+    drawing.caption = format!(
+        "Ablations: the difference to {first} on the same cases, mean over faces with the 95 % interval of Student's t \
+         over faces (none with a single face)."
+    );
+    Ok(())
+}
+
+/// The bias budget: a solver, and the same solver with parts held at their truth, in each light.
+pub(super) fn draw_bias(sources: &Sources, drawing: &mut Drawing) -> Result<(), ReportError> {
+    let shows = |column: &Column| sources.shows(column) || column.method.kind == Kind::Privileged;
+    let first = compare(sources, drawing, "a solver that is `given` parts", shows, true)?;
+    drawing.caption = format!(
+        "Bias budget: the gain over {first} where parts are held at their truth, by light, mean over faces with the \
+         95 % interval of Student's t over faces (none with a single face)."
+    );
+    Ok(())
+}
+
+/// Compares all settings that are shown with the first, whose name is returned; `by_light` in each light alone.
+fn compare(
+    sources: &Sources,
+    drawing: &mut Drawing,
+    wanted: &str,
+    shows: impl Fn(&Column) -> bool,
+    by_light: bool,
+) -> Result<String, ReportError> {
     let cases: Vec<CaseSource> = sources.cases().collect();
-    let settings = settings(sources, &cases);
-    let Some(reference) = settings.first().filter(|_| settings.len() > 1) else {
-        return Err(sources.nothing("a second method or variant of a solver"));
-    };
+    let settings = settings(&cases, shows);
+    if settings.len() < 2 {
+        return Err(sources.nothing(wanted));
+    }
     let names = names(&settings);
-    let mut shown: Vec<Vec<String>> = names.iter().map(|name| vec![name.clone()]).collect();
+    let mut lights = Vec::new();
+    for source in &cases {
+        let light = by_light.then_some(&*source.case.light);
+        if !lights.contains(&light) {
+            lights.push(light);
+        }
+    }
+    let mut shown = Vec::new();
+    for light in lights {
+        let in_light = |source: &&CaseSource| light.is_none_or(|light| source.case.light == light);
+        let cases: Vec<&CaseSource> = cases.iter().filter(in_light).collect();
+        shown.extend(compare_in(drawing, &cases, &settings, &names, light));
+    }
+    let mut headings = vec!["setting".to_owned()];
+    headings.extend(QUANTITIES.iter().map(|quantity| quantity.label.to_owned()));
+    drawing.table = Some(Export { keys: vec![], rows: vec![], headings, shown });
+    Ok(names[0].clone())
+}
+
+/// One block of bars for each quantity; the rows of the table.
+fn compare_in(
+    drawing: &mut Drawing,
+    cases: &[&CaseSource],
+    settings: &[Setting],
+    names: &[String],
+    light: Option<&str>,
+) -> Vec<Vec<String>> {
+    let titled = |name: &str| light.map_or(name.to_owned(), |light| format!("{light}: {name}"));
+    let reference = &settings[0];
+    let mut shown: Vec<Vec<String>> = names.iter().map(|name| vec![titled(name)]).collect();
     for quantity in &QUANTITIES {
-        let base = values(&cases, reference, quantity);
+        let base = values(cases, reference, quantity);
         let mut bars = Vec::new();
-        for ((setting, name), row) in settings.iter().zip(&names).zip(&mut shown) {
-            let found = values(&cases, setting, quantity);
+        for ((setting, name), row) in settings.iter().zip(names).zip(&mut shown) {
+            let found = values(cases, setting, quantity);
             let mean = over_faces(
                 &found.iter().map(|(face, _, v)| (face.clone(), *v)).collect::<Vec<_>>(),
             );
@@ -58,7 +118,7 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
             };
             let ([low, high], [less, more]) = (ends(mean), ends(difference));
             drawing.row(json!({
-                "setting": name, "variant": setting.variant, "method": setting.method,
+                "setting": name, "light": light, "variant": setting.variant, "method": setting.method,
                 "quantity": quantity.name, "faces": mean.map_or(0, |mean| mean.faces),
                 "mean": mean.map(|mean| mean.value), "low": low, "high": high,
                 "reference": names[0], "difference": difference.map(|mean| mean.value),
@@ -69,28 +129,20 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
             &base.into_iter().map(|(face, _, v)| (face, v)).collect::<Vec<_>>(),
         ));
         drawing.blocks.push(Block::Bars(Bars {
-            title: format!("{} ({}: {mean})", quantity.label, names[0]),
+            title: titled(&format!("{} ({}: {mean})", quantity.label, names[0])),
             label: "difference".to_owned(),
             steps: false,
             bars,
             levels: Vec::new(),
         }));
     }
-    let mut headings = vec!["setting".to_owned()];
-    headings.extend(QUANTITIES.iter().map(|quantity| quantity.label.to_owned()));
-    drawing.table = Some(Export { keys: vec![], rows: vec![], headings, shown });
-    drawing.caption = format!(
-        "Ablations: the difference to {} on the same cases, mean over faces with the 95 % interval of Student's t over \
-         faces (none with a single face).",
-        names[0]
-    );
-    Ok(())
+    shown
 }
 
-fn settings(sources: &Sources, cases: &[CaseSource]) -> Vec<Setting> {
+fn settings(cases: &[CaseSource], shows: impl Fn(&Column) -> bool) -> Vec<Setting> {
     let mut found = Vec::new();
     for source in cases {
-        for column in source.columns.iter().filter(|column| sources.shows(column)) {
+        for column in source.columns.iter().filter(|column| shows(column)) {
             let setting = Setting {
                 variant: source.case.variant.clone(),
                 method: column.method.id.clone(),
@@ -115,7 +167,7 @@ fn names(settings: &[Setting]) -> Vec<String> {
     settings.iter().map(name).collect()
 }
 
-fn values(cases: &[CaseSource], setting: &Setting, quantity: &Quantity) -> Vec<Found> {
+fn values(cases: &[&CaseSource], setting: &Setting, quantity: &Quantity) -> Vec<Found> {
     let of_variant = cases.iter().filter(|source| source.case.variant == setting.variant);
     of_variant
         .filter_map(|source| {

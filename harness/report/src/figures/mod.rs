@@ -55,6 +55,7 @@ fn fill(request: &FigureRequest, sources: &Sources, root: &Path) -> Result<(), R
         FigureKind::Emily => emily::draw(sources, &mut drawing),
         FigureKind::Decomposition => decomposition::draw(sources, &mut drawing),
         FigureKind::Ablations => ablations::draw(sources, &mut drawing),
+        FigureKind::Bias => ablations::draw_bias(sources, &mut drawing),
         FigureKind::Robustness => robustness::draw(sources, &mut drawing),
         FigureKind::Waterfall => waterfall::draw(sources, &mut drawing),
         FigureKind::Detail => detail::draw(sources, &mut drawing),

@@ -15,6 +15,8 @@ pub enum FigureKind {
     Decomposition,
     /// The gain of each part of a method (the supplement).
     Ablations,
+    /// The gain of a solver that is given parts of the truth, by light.
+    Bias,
     /// Quality over exposure, specular reflectance and roughness, by skin type.
     Robustness,
     /// From one method to the next, with what bounds them.

@@ -82,6 +82,7 @@ fn missing_data_is_an_error_of_one_line_and_leaves_the_earlier_figure() {
         assert!(out.join("figure.csv").is_file() && !folder.path().join("figure.partial").exists());
     };
     refused(request(&run, FigureKind::Ablations), "second method or variant");
+    refused(request(&run, FigureKind::Bias), "`given` parts");
     refused(request(&run, FigureKind::Waterfall), "two solvers");
     let named = |methods: &[&str], cases: &[&str]| FigureRequest {
         methods: methods.iter().map(|name| (*name).to_owned()).collect(),
@@ -130,6 +131,12 @@ fn an_ablation_is_the_paired_difference_to_the_first_method_over_faces() {
     assert!((number(5) - 53.979).abs() < 1e-2 && (number(9) - 21.938).abs() < 1e-2, "{row}");
     let latex = fs::read_to_string(out.join("figure.tex")).unwrap();
     assert!(latex.contains("\\toprule") && latex.contains("figure.pdf"));
+
+    let methods = ["unshade", "oracle"].map(str::to_owned).to_vec();
+    write(&FigureRequest { methods, ..request(&run, FigureKind::Bias) }, &out).unwrap();
+    let by_light = fs::read_to_string(out.join("figure.csv")).unwrap();
+    let of = |light: &str| by_light.lines().filter(|line| line.contains(light)).count();
+    assert_eq!((of(",flash"), of(",uniform")), (6, 6), "{by_light}");
 }
 
 #[test]

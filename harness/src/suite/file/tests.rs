@@ -331,6 +331,13 @@ fn a_competitor_is_named_with_its_settings_and_has_a_class() {
     let renamed =
         open("name = \"order-3\"\nconfig = \"sh-lambert\"\nset = { order = 3 }\n").unwrap();
     assert_eq!(renamed.methods[0].kind, suite.methods[0].kind);
+    let known =
+        open("name = \"known\"\nconfig = \"fast\"\ngiven = [\"light\", \"normals\"]\n").unwrap();
+    assert_eq!(known.methods[0].work().class().name(), "privileged");
+    let wrong = open("name = \"fast\"\ngiven = [\"albedo\"]\n").unwrap_err().to_string();
+    assert!(wrong.contains("given") && wrong.contains("normals"), "{wrong}");
+    let wrong = open("name = \"oracle\"\ngiven = [\"light\"]\n").unwrap_err().to_string();
+    assert!(wrong.contains("given"), "{wrong}");
     let wrong = open("name = \"oracle\"\nconfig = \"sh-lambert\"\n").unwrap_err().to_string();
     assert!(wrong.contains("config"), "{wrong}");
     // Under a configuration, it is our solver's name for once.

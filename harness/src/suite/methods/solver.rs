@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use scoring::run::{Class, Kind};
 use solver::memory::Estimate;
 use solver::{Config, Extent};
 use toml::{Table, Value};
@@ -20,8 +21,21 @@ use crate::suite::stage_work::{Effort, SMALL, Step};
 use crate::synth::{Interpreter, Tools};
 
 impl MethodWork for SolverMethod {
+    fn role(&self) -> Kind {
+        if self.given.is_empty() { Kind::Solver } else { Kind::Privileged }
+    }
+
+    fn class(&self) -> Class {
+        if self.given.is_empty() { Class::Passive } else { Class::Privileged }
+    }
+
     fn find(&self, _: &Interpreter) -> Result<Option<ProgramFiles>, Fault> {
         self.backend.open().map_err(|error| ("backend", error.to_string()))?;
+        let config =
+            Config::from_toml(&self.config).map_err(|error| ("config", error.to_string()))?;
+        if let (Config::Paper(_), false) = (config, self.given.is_empty()) {
+            return Err(("given", solver::SolveError::GivenToOther.to_string()));
+        }
         Ok(None)
     }
 
@@ -30,15 +44,22 @@ impl MethodWork for SolverMethod {
         // devices give the same bytes.
         let config = Config::from_toml(&self.config)?.to_toml();
         let backend = self.backend.open()?.name();
-        let given = &inputs.capture()?.given;
-        let parts = ["fields", given, &config, &backend, inputs.executor.sources.solver];
+        let capture = inputs.capture()?;
+        let mut parts =
+            vec!["fields", &capture.given, &config, &backend, inputs.executor.sources.solver];
+        let known = self.known();
+        if !known.is_empty() {
+            parts.extend([&*known, &capture.truth]);
+        }
         let made_from = format!("this program's sources of the solver, on {backend}");
         Ok(Key { made_from, ..Key::of(&parts) })
     }
 
     fn identity(&self, _: &ResolvedMethod) -> Result<Option<Vec<String>>, RunError> {
         let config = Config::from_toml(&self.config)?.to_toml();
-        Ok(Some(vec![config, SOLVER_SOURCES.to_owned()]))
+        let mut parts = vec![config, SOLVER_SOURCES.to_owned()];
+        parts.extend(Some(self.known()).filter(|known| !known.is_empty()));
+        Ok(Some(parts))
     }
 
     fn make(
@@ -50,7 +71,7 @@ impl MethodWork for SolverMethod {
     ) -> Result<Option<Usage>, RunError> {
         let config = Config::from_toml(&self.config)?;
         let backend = self.backend.open()?;
-        let capture = capture::Capture::open(place.capture)?;
+        let capture = capture::Capture::open(place.capture)?.with_truth(&self.given)?;
         solve(&*backend, &capture, &config, place.maps, tools, &mut |progress| {
             step(progress.iteration as u64, progress.total as u64, &in_words(progress));
         })?;
@@ -78,6 +99,11 @@ impl MethodWork for SolverMethod {
 }
 
 impl SolverMethod {
+    /// Names of the parts that it holds at their truth.
+    fn known(&self) -> String {
+        self.given.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
+    }
+
     pub(super) fn reseed(&mut self, add: i64, vary: Vary) -> Result<(), Fault> {
         let given = Config::from_toml(&self.config).map_err(|e| ("config", e.to_string()))?;
         let mut values: Table = self.config.parse().map_err(|e| unreadable(&e))?;
