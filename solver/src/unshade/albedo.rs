@@ -27,7 +27,8 @@ const LEAST_DIVISOR: f32 = 0.02;
 /// alone. The fit has one weight of the prior for all texels, so the weights of these samples are divided by it.
 const PRIOR_OF_HAIR_IN_SKIN: f32 = 0.33;
 /// Side of the texture on which `albedo.prior` is stated, texels. The prior is a mean over texels of the differences
-/// between neighbours, which halve with the texels; its weight grows with the side, so that it tends to an integral.
+/// between neighbours. In skin they halve with the texels, and its weight grows with the side, so that it tends to an
+/// integral. Strands of hair differ from texel to texel on any texture, and its weight is the same there.
 const SIDE_OF_PRIOR: f32 = 512.0;
 /// Standard deviation of the neighbourhood from which hair, brows and lips are inpainted, over the texture's side.
 const INPAINTING_REACH: f32 = 0.117;
@@ -120,7 +121,7 @@ pub(super) fn fit_albedo(
         [factor * weight.get(0, i)]
     });
     // Only what the fit reads.
-    let diffuse_samples = Samples {
+    let mut diffuse_samples = Samples {
         weight,
         target,
         taps: samples.taps.clone(),
@@ -131,9 +132,17 @@ pub(super) fn fit_albedo(
     let picture_weights = picture_weight(prior_weight, &diffuse_samples, &shading);
     let reach = INPAINTING_REACH * size as f32;
     inpaint_from_region(&mut diffuse, regions, &face.skin, &picture_weights, reach);
+    let relative_side = size as f32 / SIDE_OF_PRIOR;
+    let weight = Planes::from_fn(diffuse_samples.len(), |i| {
+        let region = regions[diffuse_samples.taps.nearest(i)];
+        let is_skin = face.skin.is_empty() || face.skin.contains(&region);
+        let factor = if is_skin { 1.0 } else { relative_side };
+        [factor * diffuse_samples.weight.get(0, i)]
+    });
+    let weight = std::mem::replace(&mut diffuse_samples.weight, weight);
     let steps = AlbedoSteps {
         iterations: config.albedo.steps,
-        prior_weight: prior_weight * size as f32 / SIDE_OF_PRIOR,
+        prior_weight: prior_weight * relative_side,
         minimum: 0.0,
     };
     let adam = Adam::new(&AdamConfig::default(), config.albedo.rate, diffuse.len());
@@ -143,9 +152,12 @@ pub(super) fn fit_albedo(
     });
     let mut fit = AlbedoFit::new(steps, adam, &diffuse_samples, &no_highlights, diffuse);
     run.fit(name, &mut fit)?;
-    let albedo = diffuse_samples.taps.sample::<CHANNELS>(&fit.albedo);
-    let confidence = confidence(prior_weight, &diffuse_samples, &samples.target, &shading, &albedo);
-    Ok(AlbedoEstimate { albedo: fit.albedo, confidence })
+    let AlbedoFit { albedo, .. } = fit;
+    diffuse_samples.weight = weight;
+    let sampled = diffuse_samples.taps.sample::<CHANNELS>(&albedo);
+    let confidence =
+        confidence(prior_weight, &diffuse_samples, &samples.target, &shading, &sampled);
+    Ok(AlbedoEstimate { albedo, confidence })
 }
 
 /// The error of the shading over its mean, independent of the brightness. Folds that agree to the bit were not fitted,
