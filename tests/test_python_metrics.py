@@ -188,6 +188,7 @@ def test_needs_are_those_that_the_metrics_state() -> None:
     assert needs == {
         "wcorr": "labels", "leakage_shading": "shading", "leakage_specular": "specular",
         "confidence_rank": "confidence", "sparsification": "confidence",
+        "deviation_68": "deviation", "deviation_95": "deviation",
         "psnr_lin_unbiased": "halves", "psnr_srgb_unbiased": "halves", "relief_invented": "mesh_normal",
         "psnr_srgb_area": "area", "normal_mean_deg_area": "area",
     }  # fmt: skip

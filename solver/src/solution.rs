@@ -16,6 +16,8 @@ use crate::maps::{Scales, StageMaps};
 pub struct Solution {
     /// The reflectance maps, normalised.
     pub maps: Maps,
+    /// Standard deviation of the diffuse albedo after its one factor, R, G, B, reflectance; by the default method.
+    pub diffuse_albedo_std: Option<Picture>,
     /// The light of each group of frames by the default method, in the order of [`capture::FrameLights::names`].
     pub lights: Vec<RecoveredLight>,
     /// Every withheld view, rendered by the model.
@@ -31,6 +33,7 @@ pub struct Solution {
 /// The results of a method: a solution without its record.
 pub(crate) struct Results {
     pub maps: Maps,
+    pub diffuse_albedo_std: Option<Picture>,
     pub lights: Vec<RecoveredLight>,
     pub views: Vec<ViewLayers>,
     pub stages: Vec<StageMaps>,
@@ -164,6 +167,9 @@ impl Solution {
     /// Writes the files into an existing folder, for callers that add files.
     pub fn write_into(&self, folder: &Path) -> Result<(), MapsError> {
         self.maps.write_into(folder)?;
+        if let Some(deviation) = &self.diffuse_albedo_std {
+            picture::write_exr_rgb(&folder.join("diffuse_albedo_std.exr"), deviation)?;
+        }
         match self.lights.as_slice() {
             [light] => picture::write_exr_rgb(&folder.join("light.exr"), &light.picture())?,
             lights => {

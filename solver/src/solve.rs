@@ -170,6 +170,6 @@ pub fn solve_on(
         specular_scale: results.scales.specular,
         stages,
     };
-    let crate::solution::Results { maps, lights, views, stages, .. } = results;
-    Ok(Solution { maps, lights, views, stages, record, timing })
+    let crate::solution::Results { maps, diffuse_albedo_std, lights, views, stages, .. } = results;
+    Ok(Solution { maps, diffuse_albedo_std, lights, views, stages, record, timing })
 }

@@ -8,7 +8,7 @@ factor on the prediction first: ``none``, ``global``, ``channel`` or ``median``.
 
 Some metrics compare with more, a keyword each: ``labels`` (height, width), region ids from 0 to 255;
 ``shading`` and ``specular``, the true diffuse shading and specular layer, as pictures; ``confidence``
-(height, width), larger for more trust.
+(height, width), larger for more trust; ``deviation``, the stated standard deviation of every value.
 
 :func:`evaluate` computes many of one pair at once, on all cores, and what they share once.
 

@@ -60,7 +60,7 @@ pub(super) fn measure(
         check_size("labels", (labels.width, labels.height), truth)?;
     }
     let mut pictures = HashMap::new();
-    for name in ["shading", "specular", "mesh_normal", "confidence", "area"] {
+    for name in ["shading", "specular", "mesh_normal", "confidence", "deviation", "area"] {
         let Some(given) = given(name)? else { continue };
         let picture = argument(name).picture(&given)?;
         check_size(name, (picture.width, picture.height), truth)?;
@@ -178,6 +178,7 @@ impl Inputs {
             ("labels", Some(labels), ..) => pair.with_labels(labels),
             ("halves", _, Some([prediction, truth]), _) => pair.with_halves(prediction, truth),
             ("confidence", .., Some(confidence)) => pair.with_confidence(confidence),
+            ("deviation", .., Some(deviation)) => pair.with_deviation(deviation),
             ("area", .., Some(area)) => pair.with_area(area),
             ("shading" | "specular" | "mesh_normal", .., Some(cause)) => pair.with_cause(cause),
             _ => Ok(pair),

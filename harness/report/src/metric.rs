@@ -4,9 +4,10 @@ use scoring::metrics::ScaleMode;
 use scoring::score::Row;
 
 /// Subjects, with their words in the table, in its order.
-pub(super) const SUBJECTS: [(&str, &str); 24] = [
+pub(super) const SUBJECTS: [(&str, &str); 25] = [
     ("diffuse_albedo", "Diffuse albedo map"),
     ("confidence", "Confidence map, against the error of the diffuse albedo"),
+    ("diffuse_albedo_std", "Diffuse albedo, stated deviations"),
     ("specular_albedo", "Specular albedo map"),
     ("specular_normal", "Specular normal map"),
     ("diffuse_normal", "Diffuse normal map"),

@@ -98,11 +98,13 @@ fn every_metric_agrees_with_an_independent_implementation() {
     let (truth, prediction) =
         (black_outside(&p.truth, &p.mask), black_outside(&p.prediction, &p.mask));
     let (true_value, value) = (channel(&p.truth, 0), channel(&p.prediction, 1));
+    let deviation = picture(3, |x, y, c| p.cause.pixel(x, y)[c] * 0.0625);
     let colours = Pair::new(&prediction, &truth, &region)
         .and_then(|pair| pair.with_labels(&p.labels))
         .and_then(|pair| pair.with_cause(&p.cause))
         .and_then(|pair| pair.with_confidence(&p.confidence))
         .and_then(|pair| pair.with_area(&p.confidence))
+        .and_then(|pair| pair.with_deviation(&deviation))
         .unwrap();
     let mesh = picture(3, |x, y, c| {
         if (x + y) % 2 == 0 { p.true_normal.pixel(x, y)[c] } else { f32::from(u8::from(c == 2)) }

@@ -141,6 +141,17 @@ fn a_confidence_that_knows_the_error_is_told_from_one_that_says_nothing() {
         let scores = score(&bench.capture(), &maps, None).unwrap();
         [row(&scores, "confidence_rank"), row(&scores, "sparsification")]
     };
+    // Deviations that are the errors themselves.
+    let stated =
+        map(SIDE, 3, |u, v| albedo(u, v).map(|a| a * ((u - 0.5).exp() - (-k).exp()).abs()));
+    write_exr(&maps.join("diffuse_albedo_std.exr"), &stated, &["R", "G", "B"]).unwrap();
+    let scores = score(&bench.capture(), &maps, None).unwrap();
+    let of = |metric: &str| {
+        let id = format!("diffuse_albedo_std/{metric}@coverage-e5:global");
+        scores.row(&id).unwrap().value.unwrap()
+    };
+    assert!((of("deviation_68") - 1.0).abs() < 1e-3, "{}", of("deviation_68"));
+    assert!((of("deviation_95") - 0.5).abs() < 1e-3, "{}", of("deviation_95"));
     let error = |u: f64| (u - 0.5 + k).abs();
     let [rank, sparse] = scored(&|u| 1.0 - error(u)).map(Option::unwrap);
     // Every column of the region has one error; the better half of them is trusted.

@@ -196,6 +196,7 @@ fn assemble(
         ..Maps::default()
     };
     Ok(Results {
+        diffuse_albedo_std: None,
         maps,
         lights: vec![],
         views,

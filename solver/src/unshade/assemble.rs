@@ -8,6 +8,7 @@ use formats::maps::Maps;
 use formats::picture::Picture;
 
 use super::albedo::{AlbedoEstimate, SampledLayers};
+use super::confidence::deviation;
 use super::known::Known;
 use super::light::JointEstimate;
 use super::lighting::Lighting;
@@ -108,7 +109,15 @@ pub(super) fn assemble(
     let diffuse = resample(&diffuse, size, CHANNELS, map_size);
     let confidence = resample(&final_albedo.confidence, size, 1, map_size);
     let confidence = confidence.iter().zip(&seen).map(|(c, seen)| if *seen { *c } else { 0.0 });
+    let confidence: Vec<f32> = confidence.collect();
     let regions = face.region_map(scene, map_size);
+    let albedo = maps::scaled(&diffuse, scales.diffuse);
+    let texels = albedo.as_chunks::<CHANNELS>().0.iter().zip(regions.iter().zip(&confidence));
+    let deviations = texels.flat_map(|(albedo, (region, confidence))| {
+        let relative = deviation(*confidence, face.skin.contains(region));
+        albedo.map(|channel| relative * channel)
+    });
+    let diffuse_albedo_std = picture(CHANNELS, deviations.collect());
     let terms = known.terms(measured_terms.clone(), config, map_size).texture(&regions);
     let terms: Vec<_> =
         terms.as_chunks().0.iter().map(|channels| SpecularTerm::of(*channels)).collect();
@@ -118,16 +127,17 @@ pub(super) fn assemble(
         [a, b, of_a / (of_a + of_b)]
     });
     let maps = Maps {
-        diffuse_albedo: picture(CHANNELS, maps::scaled(&diffuse, scales.diffuse)),
+        diffuse_albedo: picture(CHANNELS, albedo),
         specular_albedo: picture(1, terms.iter().map(|t| t.reflectance / total_scale).collect()),
         diffuse_normal: picture(3, maps::bent_normals(&atlas, &relief.blurred())),
         specular_normal: picture(3, maps::bent_normals(&atlas, &relief.deviation)),
-        confidence: picture(1, confidence.collect()),
+        confidence: picture(1, confidence),
         roughness: picture(3, lobes.collect()).filter(|_| config.roughness.rounds > 0),
         coverage: Some(coverage(&seen)),
     };
     Ok(Results {
         maps,
+        diffuse_albedo_std,
         lights: lighting.recovered(scene.picture_scale),
         views,
         stages,

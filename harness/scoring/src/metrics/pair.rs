@@ -18,6 +18,7 @@ pub struct Pair<'a> {
     pub(super) labels: Option<&'a GrayImage>,
     pub(super) cause: Option<&'a Picture>,
     pub(super) confidence: Option<&'a Picture>,
+    pub(super) deviation: Option<&'a Picture>,
     pub(super) halves: Option<[&'a Picture; 2]>,
     pub(super) area: Option<&'a Picture>,
     pub(super) shared: Arc<Shared>,
@@ -48,6 +49,7 @@ impl<'a> Pair<'a> {
             labels: None,
             cause: None,
             confidence: None,
+            deviation: None,
             halves: None,
             area: None,
             shared: Arc::default(),
@@ -81,6 +83,20 @@ impl<'a> Pair<'a> {
     pub fn with_confidence(mut self, confidence: &'a Picture) -> Result<Self, MetricError> {
         self.check_values("confidence", confidence)?;
         self.confidence = Some(confidence);
+        Ok(self)
+    }
+
+    /// The standard deviation that the method states for each value of its prediction, in the prediction's channels and
+    /// scaled with it.
+    pub fn with_deviation(mut self, deviation: &'a Picture) -> Result<Self, MetricError> {
+        check_size("deviation", (deviation.width, deviation.height), self.truth)?;
+        let found = deviation.channels;
+        if found != self.truth.channels {
+            let expected = "as many as the truth's";
+            return Err(MetricError::Channels { metric: "deviation", expected, found });
+        }
+        check_finite("deviation", deviation, self.region)?;
+        self.deviation = Some(deviation);
         Ok(self)
     }
 

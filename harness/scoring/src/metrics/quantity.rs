@@ -9,6 +9,9 @@ use super::{MetricError, Pair, Protocol};
 /// Keeps the relative squared error finite in the dark.
 pub const RELATIVE_OFFSET: f64 = 0.01;
 
+/// Least standard deviation by which is divided.
+const LEAST_DEVIATION: f64 = 1e-6;
+
 /// A per-pixel quantity; x of one or (x, y) of two numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Quantity {
@@ -49,6 +52,8 @@ pub enum Quantity {
     /// (Twice the size of the difference of the log luminances where the confidence is in its upper
     /// half, the same everywhere), whose ratio is that of their means.
     TrustedAndWholeError,
+    /// Root mean square over the channels of |p - g| over so many stated standard deviations.
+    ErrorOverDeviation(u8),
     /// Mean over the channels of (a - b)(a' - b'), a and b being independent halves of the samples
     /// of prediction and truth, a' and b' the others: the squared error without what noise adds.
     CrossProduct,
@@ -87,6 +92,7 @@ impl Quantity {
             Self::LogErrorAndCause => Some("shading"),
             Self::ErrorAndCause => Some("specular"),
             Self::TrustAndErrorRanks | Self::TrustedAndWholeError => Some("confidence"),
+            Self::ErrorOverDeviation(_) => Some("deviation"),
             Self::CrossProduct | Self::CrossProductSrgb => Some("halves"),
             Self::InventedRelief => Some("mesh_normal"),
             Self::AreaSquaredErrorSrgb | Self::AreaAngle => Some("area"),
@@ -122,6 +128,7 @@ impl Quantity {
             | Self::Projection
             | Self::CrossProduct
             | Self::ColourAngle
+            | Self::ErrorOverDeviation(_)
             | Self::Own => "linear",
             Self::Compatible(Protocol::OrbHdr | Protocol::OrbAlbedo) => "linear, as there",
             Self::Compatible(_) => "gamma, as there",
@@ -252,6 +259,20 @@ impl Quantity {
                 let errors = ranks(&log_errors(pair));
                 ranks(&trust).into_iter().zip(errors).flat_map(|(x, y)| [x, y]).collect()
             }
+            Self::ErrorOverDeviation(count) => {
+                let stated = pair.deviation.ok_or_else(|| needs("standard deviations"))?;
+                let channels = pair.truth.channels as f64;
+                pixels(pair)
+                    .map(|i| {
+                        let both = pair.predicted(i).zip(pair.true_values(i));
+                        let stated = pair.scaled_channels(stated, i);
+                        let ratio =
+                            |((p, g), s): ((f64, f64), f64)| (p - g) / s.max(LEAST_DEVIATION);
+                        let squares: f64 = both.zip(stated).map(|pair| ratio(pair).powi(2)).sum();
+                        (squares / channels).sqrt() / f64::from(count)
+                    })
+                    .collect()
+            }
             Self::TrustedAndWholeError => {
                 let trust =
                     pair.over_region(pair.confidence).ok_or_else(|| needs("a confidence"))?;
@@ -294,6 +315,7 @@ impl Quantity {
             | Self::LogError
             | Self::SquaredLogError
             | Self::Band(_)
+            | Self::ErrorOverDeviation(_)
             | Self::TrustedAndWholeError => ("1 or 3", found == 1 || found == 3),
         };
         if right { Ok(()) } else { Err(MetricError::Channels { metric, expected, found }) }

@@ -176,6 +176,12 @@ pub static METRICS: &[Metric] = metrics! {
     "sparsification", "Error of the trusted half", "", Lower, Q::TrustedAndWholeError, S::Ratio,
         "mean |difference of the log luminances| of the half with the highest confidence / that of all, luminances below .001 raised to it; equal confidences share the half's last places: 1 if confidence says nothing",
         "https://arxiv.org/abs/1802.07095";
+    "deviation_68", "Error over stated deviation, 68 %", "", One, Q::ErrorOverDeviation(1), S::Quantile(0.6827),
+        "68.27 % quantile of |p-g| over the stated standard deviation, root mean square over channels: 1 if the deviations are right, more if they are too small",
+        "https://en.wikipedia.org/wiki/68%E2%80%9395%E2%80%9399.7_rule";
+    "deviation_95", "Error over two stated deviations, 95 %", "", One, Q::ErrorOverDeviation(2), S::Quantile(0.9545),
+        "95.45 % quantile of |p-g| over two stated standard deviations, root mean square over channels: 1 if the deviations are right, more if they are too small",
+        "https://en.wikipedia.org/wiki/68%E2%80%9395%E2%80%9399.7_rule";
     "psnr_lin_unbiased", "PSNR without noise, linear", "dB", Higher, Q::CrossProduct, S::UnbiasedPsnr,
         "-10 log10 of the mean over pixels and channels of (a-b)(a'-b') of linear values, a and b being the means of independent halves of the samples of p and g, a' and b' those of the others: what noise adds to (p-g)² has the mean 0 in it; peak 1; 100 where nothing is left",
         "https://en.wikipedia.org/wiki/Mean_squared_error";
@@ -291,6 +297,8 @@ pub(crate) mod scored {
     pub(crate) const SPECULAR: [&str; 3] = ["rmse", "pearson", "spearman"];
     /// Metrics of the confidence against the error of the diffuse albedo.
     pub(crate) const CONFIDENCE: [&str; 2] = ["confidence_rank", "sparsification"];
+    /// Metrics of the stated deviations of the diffuse albedo.
+    pub(crate) const DEVIATION: [&str; 2] = ["deviation_68", "deviation_95"];
     /// Metrics of a view or a relit picture.
     pub(crate) const PICTURE: [&str; 6] =
         ["psnr_srgb", "psnr_lin", "relmse", "ssim", "flip_mean", "flip_p95"];

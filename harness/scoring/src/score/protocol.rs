@@ -75,7 +75,7 @@ const PHOTOGRAPHS: [&str; 5] = [
     "ci95: percentiles 2.5 and 97.5 of 1000 bootstrap resamples of blocks of pixels, pooled over frames, fixed seed; block is their side, four times the distance at which the errors' correlation falls to 1/e.",
 ];
 
-const STATEMENTS: [&str; 14] = [
+const STATEMENTS: [&str; 15] = [
     "Maps are compared on the texels that at least one training view sees (truth/coverage.png), eroded once by 5x5: coverage-e5. Metrics named _area weight every texel by its surface area. coverage-e5-views2 is the part that at least two views see.",
     "coverage-e5-0.5mm, -1mm, -2mm, -4mm: map and truth are averaged by area over cells of the surface first, the cubes of a grid of that side, in which normals nearest to different axes are apart. Maps of different sizes and charts compare there.",
     "Maps of another size than the truth are sampled bilinearly at the truth's texel centres, clamped at the border; normals are renormalised.",
@@ -89,5 +89,6 @@ const STATEMENTS: [&str; 14] = [
     "orb_*, owl_*, nerfactor_*: protocols of other benchmarks on unchanged pictures and maps, with their own factors, masks, floors and means over pictures; their numbers do not compare with ours.",
     "leakage_*: the causes are the true diffuse shading (diffuse layer / true albedo) and the true specular layer, means of their reprojections from the training views into the texture.",
     "confidence: the solver's own confidence in a texel (confidence.exr), against the error of its diffuse albedo after the one factor, on coverage-e5. Other scores do not use it.",
+    "diffuse_albedo_std: the standard deviations that the solver states (diffuse_albedo_std.exr), against the same error.",
     "mesh_*: the mesh's normal, the baseline for recovered normals. constant_specular_albedo: the best constant.",
 ];

@@ -73,6 +73,11 @@ def mesh_normals():
     return np.where(((x + y) % 2 == 0)[..., None], normals()[0], np.array([0.0, 0.0, 1.0], np.float32))
 
 
+def deviations(cause):
+    """Stated standard deviations, float32."""
+    return (cause * np.float32(0.0625)).astype(np.float32)
+
+
 def given(made, name, needs):
     """Prediction, truth, and what the metric ``name`` needs beside them.
 
@@ -80,7 +85,7 @@ def given(made, name, needs):
     """
     (truth, prediction, cause, _, labels, confidence), (true_normal, normal), mesh, half = made
     beside = {"labels": labels, "shading": cause, "specular": cause, "confidence": confidence}
-    beside |= {"area": confidence, "mesh_normal": mesh, "halves": half}
+    beside |= {"area": confidence, "mesh_normal": mesh, "halves": half, "deviation": deviations(cause)}
     pair = prediction, truth
     if name in ("rmse", "pearson", "spearman", "log_ratio_rms"):
         pair = prediction[..., 1], truth[..., 0]
@@ -169,6 +174,8 @@ def references():
         "confidence_rank": stats.spearmanr(trust, error).statistic,
         "sparsification": np.average(error, weights=trusted) / error.mean(),
     }
+    over = np.sqrt(np.mean(((pm - tm) / deviations(cause)[inside].astype(np.float64)) ** 2, axis=-1))
+    values |= {"deviation_68": np.quantile(over, 0.6827), "deviation_95": np.quantile(over / 2, 0.9545)}
     half_p, half_t = (half.astype(np.float64) for half in halves(prediction, truth))
     crossed = lambda f: np.mean(((f(half_p) - f(half_t)) * (f(2 * p - half_p) - f(2 * t - half_t)))[inside])
     dot = (pm * tm).sum(-1) / np.linalg.norm(pm, axis=-1) / np.linalg.norm(tm, axis=-1)

@@ -119,6 +119,7 @@ fn solutions_do_not_depend_on_the_number_of_threads() {
         "confidence.exr",
         "coverage.png",
         "diffuse_albedo.exr",
+        "diffuse_albedo_std.exr",
         "diffuse_normal.exr",
         "light.exr",
         "roughness.exr",
