@@ -62,7 +62,8 @@ fn compare(
     let mut lights = Vec::new();
     for source in &cases {
         let light = by_light.then_some(&*source.case.light);
-        if !lights.contains(&light) {
+        let is_scored = source.columns.iter().any(|column| column.scores.is_some());
+        if is_scored && !lights.contains(&light) {
             lights.push(light);
         }
     }
@@ -129,7 +130,10 @@ fn compare_in(
             &base.into_iter().map(|(face, _, v)| (face, v)).collect::<Vec<_>>(),
         ));
         drawing.blocks.push(Block::Bars(Bars {
-            title: titled(&format!("{} ({}: {mean})", quantity.label, names[0])),
+            title: match light {
+                Some(light) => format!("{light}: {} (as it is: {mean})", quantity.name),
+                None => format!("{} ({}: {mean})", quantity.label, names[0]),
+            },
             label: "difference".to_owned(),
             steps: false,
             bars,
