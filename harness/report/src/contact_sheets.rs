@@ -20,6 +20,8 @@ use super::{light, table};
 /// Longest side of the small pictures.
 const STAGE_SIDE: usize = 256;
 const VIEW_SIDE: usize = 160;
+/// The error in stated deviations at the end of its colours.
+const MOST_DEVIATIONS: f32 = 3.0;
 
 /// Small pictures in rows and columns.
 #[derive(Debug, Serialize)]
@@ -146,21 +148,35 @@ impl Studio<'_> {
         };
         let mut columns = vec!["confidence".to_owned()];
         let mut tiles = vec![Some(self.save(group, "confidence", &tone::grey(&found, 1.0))?)];
-        if let Some(raster) = self.albedo_error(method, maps)? {
-            columns.push("error of the diffuse albedo".to_owned());
-            tiles.push(Some(self.save(group, "confidence-error", &raster)?));
+        let [error, over_deviation] = self.albedo_errors(method, maps)?;
+        for (title, file, raster) in [
+            ("error of the diffuse albedo", "confidence-error", error),
+            ("error over the stated deviation", "error-over-deviation", over_deviation),
+        ] {
+            if let Some(raster) = raster {
+                columns.push(title.to_owned());
+                tiles.push(Some(self.save(group, file, &raster)?));
+            }
         }
-        let scores = ["confidence_rank", "sparsification"].into_iter().filter_map(|id| {
-            let value = method.column.find("confidence", None, id, "global")?.value?;
+        let scores = [
+            ("confidence", "confidence_rank"),
+            ("confidence", "sparsification"),
+            ("diffuse_albedo_std", "deviation_68"),
+            ("diffuse_albedo_std", "deviation_95"),
+        ];
+        let scores = scores.into_iter().filter_map(|(subject, id)| {
+            let value = method.column.find(subject, None, id, "global")?.value?;
             Some(format!("{} {}", Metric::find(id).ok()?.name, table::shown(Some(value), 2)))
         });
         let scores: Vec<String> = scores.collect();
         let error = match columns.len() {
             1 => String::new(),
             _ => format!(
-                " Error: {} after one factor, from 0 to {}; larger values take the last colour, grey is not scored.",
+                " Error: {} after one factor, from 0 to {}; over the stated standard deviation from 0 to {}; larger \
+                 values take the last colour, grey is not scored.",
                 Measure::ColourDifference.label(),
                 Measure::ColourDifference.top(),
+                MOST_DEVIATIONS,
             ),
         };
         let scored =
@@ -177,21 +193,32 @@ impl Studio<'_> {
         }))
     }
 
-    /// The diffuse albedo after its one factor against the truth, in false colour.
-    fn albedo_error(
+    /// The diffuse albedo after its one factor against the truth, in false colour: its error, and the error over the
+    /// deviation that the method states.
+    fn albedo_errors(
         &self,
         method: &MethodFolders,
         maps: &Path,
-    ) -> Result<Option<Raster>, ReportError> {
+    ) -> Result<[Option<Raster>; 2], ReportError> {
         let folder = self.frames.root.join("truth");
         let read =
             |folder: &Path| read_colour(&folder.join("diffuse_albedo.exr"), Layer::ALL.channels);
-        let (Some(albedo), Some(truth)) = (read(maps)?, read(&folder)?) else { return Ok(None) };
+        let (Some(albedo), Some(truth)) = (read(maps)?, read(&folder)?) else {
+            return Ok([None, None]);
+        };
         let albedo = resample(&albedo, truth.width, truth.height);
         let mask = comparison_figures::read_mask_if_present(&folder.join("coverage.png"))?;
         let (measure, factor) = (Measure::ColourDifference, method.column.factor().unwrap_or(1.0));
         let field = difference::field(&albedo, &truth, mask.as_ref(), measure, factor);
-        Ok(field.map(|field| tone::false_colour(&field, measure.top())))
+        let error = field.map(|field| tone::false_colour(&field, measure.top()));
+        let stated = maps.join("diffuse_albedo_std.exr");
+        let stated =
+            comparison_figures::read_if_present(&stated, Layer::ALL.channels, Content::Data)?;
+        let field = stated.and_then(|stated| {
+            let stated = resample(&stated, truth.width, truth.height);
+            difference::over_deviation(&albedo, &truth, &stated, mask.as_ref(), factor)
+        });
+        Ok([error, field.map(|field| tone::false_colour(&field, MOST_DEVIATIONS))])
     }
 
     fn stage_sheet(&self, group: &str, maps: &Path) -> Result<Option<ContactSheet>, ReportError> {

@@ -70,18 +70,44 @@ pub(super) fn field(
     measure: Measure,
     factor: f64,
 ) -> Option<Field> {
+    let scaled = |pair: Pair| {
+        let (metric, squared) = measure.metric();
+        let errors = Metric::find(metric).ok()?.measure(&pair.scaled([factor; 3])).ok()?;
+        Some(if squared { errors.iter().map(|square| square.sqrt()).collect() } else { errors })
+    };
+    compared(picture, truth, mask, scaled)
+}
+
+/// The error of `picture` times `factor` over its `stated` standard deviations, as [`field`].
+pub(super) fn over_deviation(
+    picture: &Picture,
+    truth: &Picture,
+    stated: &Picture,
+    mask: Option<&GrayImage>,
+    factor: f64,
+) -> Option<Field> {
+    compared(picture, truth, mask, |pair| {
+        let pair = pair.scaled([factor; 3]).with_deviation(stated).ok()?;
+        Metric::find("deviation_68").ok()?.measure(&pair).ok()
+    })
+}
+
+fn compared<'a>(
+    picture: &'a Picture,
+    truth: &'a Picture,
+    mask: Option<&GrayImage>,
+    errors: impl FnOnce(Pair) -> Option<Vec<f64>>,
+) -> Option<Field> {
     let (width, height) = (truth.width, truth.height);
     let region = match mask {
         Some(mask) => Region::of_mask("mask", mask),
         None => Region::whole(width, height),
     };
     let region = region.ok()?;
-    let pair = Pair::new(picture, truth, &region).ok()?.scaled([factor; 3]);
-    let (metric, squared) = measure.metric();
-    let errors = Metric::find(metric).ok()?.measure(&pair).ok()?;
+    let errors = errors(Pair::new(picture, truth, &region).ok()?)?;
     let mut values = vec![f32::NAN; width * height];
     for (index, error) in region.pixels().iter().zip(errors) {
-        values[*index] = if squared { error.sqrt() } else { error } as f32;
+        values[*index] = error as f32;
     }
     Some(Field { width, height, values })
 }
@@ -111,6 +137,14 @@ mod tests {
             let found = error(a, b, measure);
             assert!((found / expected - 1.0).abs() < 1e-4, "{measure:?}: {found}");
         }
+    }
+
+    #[test]
+    fn an_error_of_two_deviations_is_two() {
+        let (dark, light, stated) = (one(&[0.1; 3]), one(&[0.28; 3]), one(&[0.02; 3]));
+        // Prediction and deviation are scaled together: 0.28 - 0.2 over 0.04.
+        let found = over_deviation(&dark, &light, &stated, None, 2.0).unwrap().values[0];
+        assert!((found - 2.0).abs() < 1e-4, "{found}");
     }
 
     #[test]

@@ -170,6 +170,9 @@ fn save_solve_pictures(maps: &Path, light: usize) {
         *value = normal(i % SIDE, i / SIDE)[2].max(0.0);
     }
     picture::write_exr(&maps.join("confidence.exr"), &confidence, &["Y"]).unwrap();
+    let mut stated = Picture::new(SIDE, SIDE, 3);
+    stated.data.fill(0.02);
+    picture::write_exr_rgb(&maps.join("diffuse_albedo_std.exr"), &stated).unwrap();
     for (stage, error) in [("01-warm-up", 0.3), ("02-heights", 0.1)] {
         let folder = maps.join("stages").join(stage);
         fs::create_dir_all(&folder).unwrap();

@@ -202,7 +202,10 @@ fn a_solve_shows_what_it_left_and_nothing_of_what_it_did_not() {
     let shown: Vec<String> = pictures(&before, "Light");
     assert_eq!(shown, ["truth", "truth, mean of each cell", "recovered"]);
     let shown: Vec<String> = pictures(&before, "Confidence");
-    assert_eq!(shown, ["confidence", "error of the diffuse albedo"]);
+    assert_eq!(
+        shown,
+        ["confidence", "error of the diffuse albedo", "error over the stated deviation"]
+    );
     assert!(before.contains("Confidence against error -0.40; Error of the trusted half 0.80."));
     let shown: Vec<String> = pictures(&before, "Maps after each stage");
     // The first stage changed no normal, and a stage without a map has no picture.
