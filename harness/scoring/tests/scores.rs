@@ -209,6 +209,8 @@ fn every_metric_is_scored_of_something() {
     let maps = bench.root.path().join("oracle");
     oracle_maps(&bench.capture(), &maps).unwrap();
     write_exr(&maps.join("confidence.exr"), &map(SIDE, 1, |u, _| [u; 3]), &["Y"]).unwrap();
+    let stated = map(SIDE, 3, |_, _| [0.1; 3]);
+    write_exr(&maps.join("diffuse_albedo_std.exr"), &stated, &["R", "G", "B"]).unwrap();
     for frame in [3, 4] {
         let view = maps.join(format!("views/{frame:03}.exr"));
         write_render(&view, frame, 0.0, &mut || 0.0, 1.0);
