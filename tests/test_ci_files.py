@@ -47,9 +47,10 @@ def darker(tiny_run: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     changed = package.Maps.read(maps)
     changed.diffuse_albedo = changed.diffuse_albedo * 0.97
     changed.write(maps)
-    # The method's own views and its light are no part of what is read and written.
+    # The method's own views, its light and its deviations are no part of what is read and written.
     shutil.copytree(tiny_run / "maps" / CASE / "quick" / "views", maps / "views")
-    shutil.copy(tiny_run / "maps" / CASE / "quick" / "light.exr", maps)
+    for file in ("light.exr", "diffuse_albedo_std.exr"):
+        shutil.copy(tiny_run / "maps" / CASE / "quick" / file, maps)
     for picture in relit.rglob("*.exr"):
         channels = package.exr_channels(picture)
         package.write_exr(picture, 0.97 * package.read_exr(picture, channels), channels)

@@ -63,8 +63,13 @@ pub(super) fn rows_of_confidence(
     Ok(found)
 }
 
-/// The values; finite wherever the maps have data.
+/// The values; finite wherever the maps have data. A file of one channel has it for all.
 fn read(maps: &Path, path: &Path, channels: &[&str]) -> Result<Picture, ScoreError> {
+    let names = picture::exr_channel_names(path)?;
+    let channels = match names.as_slice() {
+        [one] => &vec![one.as_str(); channels.len()],
+        _ => channels,
+    };
     let mut found = picture::read_exr_unchecked(path, channels, Content::Data)?;
     let coverage = maps.join("coverage.png");
     if coverage.exists() {
