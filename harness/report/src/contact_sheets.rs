@@ -4,6 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use formats::maps::read_deviation;
 use formats::picture::{Content, Picture};
 use scoring::metrics::{Metric, resample};
 use serde::Serialize;
@@ -169,14 +170,17 @@ impl Studio<'_> {
             Some(format!("{} {}", Metric::find(id).ok()?.name, table::shown(Some(value), 2)))
         });
         let scores: Vec<String> = scores.collect();
+        let over_deviation = match columns.len() {
+            3 => format!(", over the stated standard deviation from 0 to {MOST_DEVIATIONS}"),
+            _ => String::new(),
+        };
         let error = match columns.len() {
             1 => String::new(),
             _ => format!(
-                " Error: {} after one factor, from 0 to {}; over the stated standard deviation from 0 to {}; larger \
-                 values take the last colour, grey is not scored.",
+                " Error: {} after one factor, from 0 to {}{over_deviation}; larger values take the last colour, grey \
+                 is not scored.",
                 Measure::ColourDifference.label(),
                 Measure::ColourDifference.top(),
-                MOST_DEVIATIONS,
             ),
         };
         let scored =
@@ -211,10 +215,8 @@ impl Studio<'_> {
         let (measure, factor) = (Measure::ColourDifference, method.column.factor().unwrap_or(1.0));
         let field = difference::field(&albedo, &truth, mask.as_ref(), measure, factor);
         let error = field.map(|field| tone::false_colour(&field, measure.top()));
-        let stated = maps.join("diffuse_albedo_std.exr");
-        let stated =
-            comparison_figures::read_if_present(&stated, Layer::ALL.channels, Content::Data)?;
-        let field = stated.and_then(|stated| {
+        let stated = read_deviation(maps, "diffuse_albedo", Layer::ALL.channels);
+        let field = stated.map_err(ReportError::from)?.and_then(|stated| {
             let stated = resample(&stated, truth.width, truth.height);
             difference::over_deviation(&albedo, &truth, &stated, mask.as_ref(), factor)
         });

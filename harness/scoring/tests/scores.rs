@@ -152,6 +152,16 @@ fn a_confidence_that_knows_the_error_is_told_from_one_that_says_nothing() {
     };
     assert!((of("deviation_68") - 1.0).abs() < 1e-3, "{}", of("deviation_68"));
     assert!((of("deviation_95") - 0.5).abs() < 1e-3, "{}", of("deviation_95"));
+    // One channel stands for all; a negative one is refused.
+    let one = |value: f64| {
+        write_exr(&maps.join("diffuse_albedo_std.exr"), &map(SIDE, 1, |_, _| [value; 3]), &["Y"])
+            .unwrap();
+        score(&bench.capture(), &maps, None)
+    };
+    let rows = one(0.1).unwrap().rows;
+    assert!(rows.iter().any(|row| row.metric == "deviation_68" && row.value.is_some()));
+    assert!(one(-0.1).unwrap_err().to_string().contains("deviation is -0.1 at"));
+    fs::remove_file(maps.join("diffuse_albedo_std.exr")).unwrap();
     let error = |u: f64| (u - 0.5 + k).abs();
     let [rank, sparse] = scored(&|u| 1.0 - error(u)).map(Option::unwrap);
     // Every column of the region has one error; the better half of them is trusted.

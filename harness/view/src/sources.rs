@@ -4,8 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use formats::Maps;
-use formats::maps::MapsError;
-use formats::picture::{self, Content, GrayImage, Picture};
+use formats::maps::{MapsError, read_deviation};
+use formats::picture::{self, GrayImage, Picture};
 
 use crate::error::ViewError;
 
@@ -53,16 +53,7 @@ impl Source {
         }
         let mut deviations = Vec::new();
         for (map, channels) in DEVIATIONS {
-            let path = folder.join(format!("{map}_std.exr"));
-            if !path.is_file() {
-                continue;
-            }
-            let names = picture::exr_channel_names(&path)?;
-            let single = names.first().map(|name| [name.as_str()]);
-            let has = |wanted: &&[&str]| wanted.iter().all(|name| names.iter().any(|n| n == name));
-            let wanted = Some(channels).filter(has).or(single.as_ref().map(|name| &name[..]));
-            if let Some(wanted) = wanted {
-                let mut found = picture::read_exr_unchecked(&path, wanted, Content::Data)?;
+            if let Some(mut found) = read_deviation(folder, map, channels)? {
                 found.blacken_not_finite(|_| true);
                 deviations.push((map, found));
             }

@@ -91,7 +91,7 @@ impl FrameLights {
     }
 
     /// The reason why one light that stands still with respect to the head does not describe all frames, with the key
-    /// of `transforms.json` that says so. `None` if one light describes them.
+    /// of `transforms.json` that says so; none for one such light.
     pub fn beyond_one_still_light(&self) -> Option<&'static str> {
         match (self.frame, self.groups()) {
             (LightFrame::Camera, _) => {

@@ -121,6 +121,24 @@ impl Maps {
     }
 }
 
+/// Reads `<map>_std.exr` of `folder`, the standard deviation per texel that a method states for a map: these channels, or
+/// the first one if it stands for all. Its values may be not finite. `None` without the file.
+pub fn read_deviation(
+    folder: &Path,
+    map: &str,
+    channels: &[&str],
+) -> Result<Option<Picture>, PictureError> {
+    let path = folder.join(format!("{map}_std.exr"));
+    if !path.is_file() {
+        return Ok(None);
+    }
+    let names = picture::exr_channel_names(&path)?;
+    let has_all = channels.iter().all(|wanted| names.iter().any(|name| name == wanted));
+    let first: Vec<&str> = names.iter().take(1).map(String::as_str).collect();
+    let wanted = if has_all { channels } else { &first };
+    picture::read_exr_unchecked(&path, wanted, Content::Data).map(Some)
+}
+
 fn check_side(
     path: &Path,
     width: usize,
@@ -140,6 +158,18 @@ fn check_side(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_deviation_of_one_channel_stands_for_all() {
+        let root = tempfile::tempdir().unwrap();
+        let read = || read_deviation(root.path(), "diffuse_albedo", &["R", "G", "B"]).unwrap();
+        assert!(read().is_none());
+        let path = root.path().join("diffuse_albedo_std.exr");
+        for names in [&["Y"][..], &["R", "G", "B"]] {
+            picture::write_exr(&path, &Picture::new(2, 2, names.len()), names).unwrap();
+            assert_eq!(read().unwrap().channels, names.len());
+        }
+    }
 
     #[test]
     fn absent_maps_stay_absent_and_sizes_must_agree() {

@@ -78,7 +78,7 @@ fn a_moving_light_of_unknown_exposure_is_refused() {
     assert!(error.contains("exposure is 2; write"), "{error}");
 }
 
-/// What a resumed solve would continue was fitted under other gains.
+/// A resumed solve would continue a fit under other gains.
 #[test]
 fn an_interrupt_while_gains_are_estimated_leaves_no_checkpoint() {
     let folder = tempfile::tempdir().unwrap();

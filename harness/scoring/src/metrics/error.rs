@@ -35,14 +35,14 @@ pub enum MetricError {
         /// Channels there are.
         found: usize,
     },
-    /// A value inside the region is NaN or infinite.
+    /// A value inside the region is NaN or infinite, or a standard deviation is negative.
     #[error(
         "the {what} is {value} at column {x}, row {y}, channel {channel}; fix or mask the pixel"
     )]
-    NotFinite {
+    Value {
         /// The picture.
         what: &'static str,
-        /// NaN, inf or -inf.
+        /// The value.
         value: f32,
         /// Column from the left.
         x: usize,

@@ -16,6 +16,7 @@
 mod colour;
 mod compatible;
 mod correlation;
+mod deviation;
 mod error;
 mod filter;
 mod measured;

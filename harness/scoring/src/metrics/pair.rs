@@ -86,16 +86,16 @@ impl<'a> Pair<'a> {
         Ok(self)
     }
 
-    /// The standard deviation that the method states for each value of its prediction, in the prediction's channels and
-    /// scaled with it.
+    /// The standard deviation that the method states for each value of its prediction, scaled with it: in its channels,
+    /// or one for all of them.
     pub fn with_deviation(mut self, deviation: &'a Picture) -> Result<Self, MetricError> {
         check_size("deviation", (deviation.width, deviation.height), self.truth)?;
         let found = deviation.channels;
-        if found != self.truth.channels {
-            let expected = "as many as the truth's";
+        if found != 1 && found != self.truth.channels {
+            let expected = "1, or as many as the truth's";
             return Err(MetricError::Channels { metric: "deviation", expected, found });
         }
-        check_finite("deviation", deviation, self.region)?;
+        check("deviation", deviation, self.region, |value| value.is_finite() && value >= 0.0)?;
         self.deviation = Some(deviation);
         Ok(self)
     }
@@ -270,12 +270,21 @@ fn check_size(
 }
 
 fn check_finite(what: &'static str, picture: &Picture, region: &Region) -> Result<(), MetricError> {
+    check(what, picture, region, f32::is_finite)
+}
+
+fn check(
+    what: &'static str,
+    picture: &Picture,
+    region: &Region,
+    is_valid: fn(f32) -> bool,
+) -> Result<(), MetricError> {
     for &index in region.pixels() {
         let (x, y) = (index % picture.width, index / picture.width);
-        let bad = picture.pixel(x, y).iter().position(|value| !value.is_finite());
+        let bad = picture.pixel(x, y).iter().position(|value| !is_valid(*value));
         if let Some(channel) = bad {
             let value = picture.pixel(x, y)[channel];
-            return Err(MetricError::NotFinite { what, value, x, y, channel });
+            return Err(MetricError::Value { what, value, x, y, channel });
         }
     }
     Ok(())

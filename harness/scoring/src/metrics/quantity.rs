@@ -1,6 +1,7 @@
 //! Quantities of metrics at every pixel of a region.
 
 use super::colour::{ciede2000, log, srgb, typology_angle};
+use super::deviation::over_deviation;
 use super::neighbourhood::{band, flip, high_pass, low_pass_error, ssim};
 use super::pair::triple;
 use super::rank::{ranks, upper_half};
@@ -8,9 +9,6 @@ use super::{MetricError, Pair, Protocol};
 
 /// Keeps the relative squared error finite in the dark.
 pub const RELATIVE_OFFSET: f64 = 0.01;
-
-/// Least standard deviation by which is divided.
-const LEAST_DEVIATION: f64 = 1e-6;
 
 /// A per-pixel quantity; x of one or (x, y) of two numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -260,18 +258,8 @@ impl Quantity {
                 ranks(&trust).into_iter().zip(errors).flat_map(|(x, y)| [x, y]).collect()
             }
             Self::ErrorOverDeviation(count) => {
-                let stated = pair.deviation.ok_or_else(|| needs("standard deviations"))?;
-                let channels = pair.truth.channels as f64;
-                pixels(pair)
-                    .map(|i| {
-                        let both = pair.predicted(i).zip(pair.true_values(i));
-                        let stated = pair.scaled_channels(stated, i);
-                        let ratio =
-                            |((p, g), s): ((f64, f64), f64)| (p - g) / s.max(LEAST_DEVIATION);
-                        let squares: f64 = both.zip(stated).map(|pair| ratio(pair).powi(2)).sum();
-                        (squares / channels).sqrt() / f64::from(count)
-                    })
-                    .collect()
+                let errors = over_deviation(pair).ok_or_else(|| needs("standard deviations"))?;
+                errors.iter().map(|error| error / f64::from(count)).collect()
             }
             Self::TrustedAndWholeError => {
                 let trust =

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use formats::maps::read_deviation;
 use formats::picture::{self, Content, Picture};
 
 use super::ScoreError;
@@ -10,32 +11,11 @@ use super::scores::Row;
 use super::truth::Truth;
 use crate::metrics::{MetricError, Pair, Scale, ScaleMode, resample, scored};
 
-/// A file beside the maps, with its channels; the subject and the metrics of its rows; its place in a pair.
-struct Stated {
-    file: &'static str,
-    channels: &'static [&'static str],
-    subject: &'static str,
-    metrics: &'static [&'static str],
-    add: for<'a> fn(Pair<'a>, &'a Picture) -> Result<Pair<'a>, MetricError>,
-}
+const CONFIDENCE: &str = "confidence.exr";
+const DEVIATION: &str = "diffuse_albedo_std.exr";
 
-const CONFIDENCE: Stated = Stated {
-    file: "confidence.exr",
-    channels: &["Y"],
-    subject: "confidence",
-    metrics: &scored::CONFIDENCE,
-    add: |pair, values| pair.with_confidence(values),
-};
-const DEVIATION: Stated = Stated {
-    file: "diffuse_albedo_std.exr",
-    channels: &["R", "G", "B"],
-    subject: "diffuse_albedo_std",
-    metrics: &scored::DEVIATION,
-    add: |pair, values| pair.with_deviation(values),
-};
-
-/// Rows of confidence and deviations against the error of the diffuse albedo after its one factor, which is no texel's
-/// fault; none without their files.
+/// Rows that compare confidence and stated deviations with the error of the diffuse albedo after its one factor; none
+/// without their files.
 pub(super) fn rows_of_confidence(
     maps: &Path,
     albedo: &Picture,
@@ -43,34 +23,39 @@ pub(super) fn rows_of_confidence(
     scale: &Scale,
 ) -> Result<Vec<Row>, ScoreError> {
     let (width, height) = truth.region.size();
+    let albedo = resample(albedo, width, height);
+    let pair = || {
+        let pair = Pair::new(&albedo, &truth.diffuse_albedo, &truth.region);
+        pair.map(|pair| pair.scaled(scale.factors(ScaleMode::Global)))
+    };
     let mut found = Vec::new();
-    for stated in [CONFIDENCE, DEVIATION] {
-        let path = maps.join(stated.file);
-        if !path.exists() {
-            continue;
-        }
-        let values = resample(&read(maps, &path, stated.channels)?, width, height);
-        let albedo = resample(albedo, width, height);
-        let pair = Pair::new(&albedo, &truth.diffuse_albedo, &truth.region)
-            .map(|pair| pair.scaled(scale.factors(ScaleMode::Global)))
-            .and_then(|pair| (stated.add)(pair, &values))
-            .map_err(ScoreError::of(stated.subject))?;
-        let scale = ScaleMode::Global.id();
-        let heading = Heading { subject: stated.subject, light: None, scale, label: None };
-        let compared = [Compared { frame: None, pair }];
-        found.extend(rows(heading, stated.metrics, &compared, &Floors::new())?);
+    let path = maps.join(CONFIDENCE);
+    if path.exists() {
+        let confidence = picture::read_exr_unchecked(&path, &["Y"], Content::Data)?;
+        let confidence = resample(&finite(maps, CONFIDENCE, confidence)?, width, height);
+        let pair = pair().and_then(|pair| pair.with_confidence(&confidence));
+        found.extend(rows_of("confidence", &scored::CONFIDENCE, pair)?);
+    }
+    if let Some(stated) = read_deviation(maps, "diffuse_albedo", &["R", "G", "B"])? {
+        let stated = resample(&finite(maps, DEVIATION, stated)?, width, height);
+        let pair = pair().and_then(|pair| pair.with_deviation(&stated));
+        found.extend(rows_of("diffuse_albedo_std", &scored::DEVIATION, pair)?);
     }
     Ok(found)
 }
 
-/// The values; finite wherever the maps have data. A file of one channel has it for all.
-fn read(maps: &Path, path: &Path, channels: &[&str]) -> Result<Picture, ScoreError> {
-    let names = picture::exr_channel_names(path)?;
-    let channels = match names.as_slice() {
-        [one] => &vec![one.as_str(); channels.len()],
-        _ => channels,
-    };
-    let mut found = picture::read_exr_unchecked(path, channels, Content::Data)?;
+fn rows_of(
+    subject: &str,
+    metrics: &[&str],
+    pair: Result<Pair, MetricError>,
+) -> Result<Vec<Row>, ScoreError> {
+    let pair = pair.map_err(ScoreError::of(subject))?;
+    let heading = Heading { subject, light: None, scale: ScaleMode::Global.id(), label: None };
+    rows(heading, metrics, &[Compared { frame: None, pair }], &Floors::new())
+}
+
+/// Requires finite values wherever the maps have data.
+fn finite(maps: &Path, file: &str, mut found: Picture) -> Result<Picture, ScoreError> {
     let coverage = maps.join("coverage.png");
     if coverage.exists() {
         let coverage = picture::read_png_gray(&coverage)?;
@@ -78,6 +63,7 @@ fn read(maps: &Path, path: &Path, channels: &[&str]) -> Result<Picture, ScoreErr
             found.blacken_not_finite(|texel| coverage.data[texel] == 0);
         }
     }
-    found.require_finite(path, channels)?;
+    let names = if found.channels == 1 { &["Y"][..] } else { &["R", "G", "B"] };
+    found.require_finite(&maps.join(file), names)?;
     Ok(found)
 }

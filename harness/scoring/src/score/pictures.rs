@@ -108,7 +108,7 @@ pub(super) fn relit_rows(
 }
 
 /// Rows of pictures in `folder` against photographs: a method's views, or its maps relit in the light
-/// that it found. Without such a folder there are no rows. With `own_gains`, each picture is compared after the factor
+/// that it found; no rows without the folder. With `own_gains`, each picture is compared after the factor
 /// of each channel that fits its photograph.
 pub(super) fn photograph_rows(
     frames: &[Frame],
