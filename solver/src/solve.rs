@@ -134,7 +134,8 @@ pub fn solve_on(
     let capture = &*capture;
     let _kept = memory::KeepFreedMemory::begin();
     let Estimate { views, pixels, texture_size, .. } = estimate;
-    let plan = plan(config, &Extent { views, pixels, texture_size });
+    let has_changing_light = capture.lights.beyond_one_still_light().is_some();
+    let plan = plan(config, &Extent { views, pixels, texture_size, has_changing_light });
     let final_decay = match config {
         // Constant learning rates.
         Config::Unshade(_) => 1.0,

@@ -1,6 +1,6 @@
 //! The light of every frame: its group of frames, and whether it turns with the camera.
 
-use glam::Mat3;
+use glam::Mat4;
 use serde_json::Value;
 
 use super::camera::Camera;
@@ -38,8 +38,8 @@ pub struct FrameLights {
     /// The names of the groups of frames that share a light, in the order of their first training view; empty if no
     /// frame names its light, which is one group without a name.
     pub names: Vec<String>,
-    /// The group and the rotation from the light's frame to the head's, of each frame.
-    frames: Vec<(usize, Mat3)>,
+    /// The group and the pose of the light's frame in the head's, of each frame.
+    frames: Vec<(usize, Mat4)>,
 }
 
 impl FrameLights {
@@ -71,11 +71,11 @@ impl FrameLights {
                     }
                 },
             };
-            let rotation = match frame {
-                LightFrame::Head => Mat3::IDENTITY,
-                LightFrame::Camera => Mat3::from_mat4(camera.camera_to_world),
+            let pose = match frame {
+                LightFrame::Head => Mat4::IDENTITY,
+                LightFrame::Camera => camera.camera_to_world,
             };
-            of_frames.push((group, rotation));
+            of_frames.push((group, pose));
         }
         Ok(Self { frame, names, frames: of_frames })
     }
@@ -85,8 +85,8 @@ impl FrameLights {
         self.names.len().max(1)
     }
 
-    /// The group of every frame, and the rotation from the frame of reference of its light to that of the head.
-    pub fn of_frames(&self) -> &[(usize, Mat3)] {
+    /// The group of every frame, and the pose of the frame of reference of its light in that of the head, metres.
+    pub fn of_frames(&self) -> &[(usize, Mat4)] {
         &self.frames
     }
 
@@ -172,7 +172,7 @@ mod tests {
     #[test]
     fn a_capture_without_the_keys_has_one_light_that_stands_still() {
         let still = lights(|_| ()).unwrap();
-        assert_eq!(still.of_frames(), [(0, Mat3::IDENTITY); 3]);
+        assert_eq!(still.of_frames(), [(0, Mat4::IDENTITY); 3]);
         assert_eq!((still.groups(), still.beyond_one_still_light()), (1, None));
         assert_eq!(lights(|t| t["light_frame"] = json!("head")).unwrap(), still);
         let one = named([json!("flash"), json!("flash"), json!("flash")]).unwrap();
@@ -191,10 +191,10 @@ mod tests {
     #[test]
     fn lights_that_stand_still_with_the_camera_turn_with_it() {
         let lights = lights(|t| t["light_frame"] = json!("camera")).unwrap();
-        for ((_, rotation), camera) in lights.of_frames().iter().zip(testing::rig(3, 16)) {
+        for ((_, pose), camera) in lights.of_frames().iter().zip(testing::rig(3, 16)) {
             // +Z of the camera is behind it.
             let behind = camera.position().normalize();
-            assert!((*rotation * glam::Vec3::Z).distance(behind) < 1e-5);
+            assert!(pose.transform_vector3(glam::Vec3::Z).distance(behind) < 1e-5);
         }
         assert!(lights.beyond_one_still_light().unwrap().contains("light_frame"));
     }

@@ -19,6 +19,8 @@ pub struct Extent {
     pub pixels: usize,
     /// Side of the textures that are solved for, texels.
     pub texture_size: usize,
+    /// Whether the frames have several lights, or one that moves.
+    pub has_changing_light: bool,
 }
 
 /// The cost of a stage on the machine where it was measured.

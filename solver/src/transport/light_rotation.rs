@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use glam::{DMat3, DVec3, Mat3};
+use glam::{DVec3, Mat3, Vec3};
 
 use super::CHANNELS;
 use super::sky::Sky;
@@ -21,14 +21,17 @@ pub struct LightRotation {
 }
 
 impl LightRotation {
-    /// `rotation` takes directions in the frame of the light to those of the head; the sky has `rows` rows.
-    pub fn new(rows: usize, rotation: Mat3) -> Self {
+    /// `rotation` takes directions in the frame of the light to those of the head; the sky has `rows` rows. `offset` is
+    /// the head's centre from the light's, in the frame of the light and in units of the light's distance.
+    pub fn new(rows: usize, rotation: Mat3, offset: Vec3) -> Self {
         let columns = 2 * rows;
-        let back = rotation.as_dmat3().transpose();
+        let (back, offset) = (rotation.as_dmat3().transpose(), offset.as_dvec3());
         let points = Sky::lat_long(rows).points(POINTS);
         let overlaps = points.chunks_exact(POINTS * POINTS).map(|points| {
-            let mut cells: Vec<u32> =
-                points.iter().map(|point| cell(rows, columns, back, *point)).collect();
+            let mut cells: Vec<u32> = points
+                .iter()
+                .map(|point| cell(rows, columns, seen(back * *point, offset)))
+                .collect();
             cells.sort_unstable();
             let runs = cells.chunk_by(|a, b| a == b);
             runs.map(|run| (run[0], run.len() as f32 / points.len() as f32)).collect()
@@ -63,9 +66,15 @@ impl LightRotation {
     }
 }
 
-/// The cell in which a direction lies after a rotation.
-fn cell(rows: usize, columns: usize, rotation: DMat3, direction: DVec3) -> u32 {
-    let d = rotation * direction;
+/// The direction from the centre of the unit sphere to its point in a direction from `offset`.
+fn seen(direction: DVec3, offset: DVec3) -> DVec3 {
+    let along = direction.dot(offset);
+    let distance = (along * along + 1.0 - offset.length_squared()).max(0.0).sqrt() - along;
+    offset + distance * direction
+}
+
+/// The cell in which a unit direction lies.
+fn cell(rows: usize, columns: usize, d: DVec3) -> u32 {
     let row = d.y.clamp(-1.0, 1.0).acos() / PI * rows as f64;
     let column = d.x.atan2(-d.z).rem_euclid(TAU) / TAU * columns as f64;
     let (row, column) = ((row as usize).min(rows - 1), (column as usize).min(columns - 1));
@@ -74,8 +83,6 @@ fn cell(rows: usize, columns: usize, rotation: DMat3, direction: DVec3) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use glam::Vec3;
-
     use super::*;
 
     const ROWS: usize = 16;
@@ -98,14 +105,14 @@ mod tests {
     #[test]
     fn the_identity_changes_no_bit() {
         let light = values(1.0);
-        assert_eq!(LightRotation::new(ROWS, Mat3::IDENTITY).apply(&light), light);
+        assert_eq!(LightRotation::new(ROWS, Mat3::IDENTITY, Vec3::ZERO).apply(&light), light);
     }
 
     #[test]
     fn a_smooth_light_turns_as_its_formula_does() {
         let (rotation, axis) = (rotation(), Vec3::new(0.36, 0.48, 0.8));
         let radiance = |w: Vec3| Vec3::new(1.0 + 0.8 * w.dot(axis), (1.0 + w.x).powi(2), 2.0);
-        let found = LightRotation::new(ROWS, rotation).apply(&light(radiance));
+        let found = LightRotation::new(ROWS, rotation, Vec3::ZERO).apply(&light(radiance));
         let expected = light(|w| radiance(rotation.transpose() * w));
         let error = |at: usize| (found[at] - expected[at]).abs();
         let largest = (0..found.len()).map(error).fold(0.0, f32::max);
@@ -130,19 +137,47 @@ mod tests {
         for cell in [7 * 2 * ROWS + 5, 3] {
             let mut lamp = vec![0.0; CHANNELS * solid_angles.len()];
             lamp[CHANNELS * cell + 1] = 1.0;
-            let turned = LightRotation::new(ROWS, rotation()).apply(&lamp);
+            let turned = LightRotation::new(ROWS, rotation(), Vec3::ZERO).apply(&lamp);
             let ratio = energy(&turned) / energy(&lamp);
             assert!((ratio - 1.0).abs() < 0.02, "{cell}: {ratio}");
         }
         let ones = vec![1.0; CHANNELS * solid_angles.len()];
-        let turned = LightRotation::new(ROWS, rotation()).apply(&ones);
+        let turned = LightRotation::new(ROWS, rotation(), Vec3::ZERO).apply(&ones);
         assert!(turned.iter().all(|value| (value - 1.0).abs() < 1e-6));
+    }
+
+    #[test]
+    fn a_near_lamp_is_seen_from_where_the_head_is() {
+        // The lamp is at a distance of 1 from the light's centre, the head at a fifth of it.
+        let (rows, offset) = (64, Vec3::new(0.16, -0.08, 0.1));
+        let sky = Sky::lat_long(rows);
+        let centres = sky.centres();
+        let at = Vec3::new(0.48, 0.36, 0.8);
+        let lamp = (0..centres.len())
+            .min_by(|a, b| centres[*a].distance(at).total_cmp(&centres[*b].distance(at)));
+        let mut light = vec![0.0; CHANNELS * centres.len()];
+        light[CHANNELS * lamp.unwrap() + 1] = 1.0;
+        let seen = LightRotation::new(rows, rotation(), offset).apply(&light);
+        let (mut energy, mut before, mut mean) = (0.0, 0.0, Vec3::ZERO);
+        for ray in sky.rays(1, 0) {
+            let at = CHANNELS * ray.cell as usize + 1;
+            energy += ray.solid_angle * seen[at];
+            before += ray.solid_angle * light[at];
+            mean += ray.solid_angle * seen[at] * centres[ray.cell as usize];
+        }
+        let towards = centres[lamp.unwrap()] - offset;
+        let expected = rotation() * towards.normalize();
+        assert!(mean.normalize().distance(expected) < 0.02, "{mean} {expected}");
+        // The cell faces the light's centre.
+        let facing = centres[lamp.unwrap()].dot(towards.normalize());
+        let gain = facing / towards.length_squared();
+        assert!((energy / before / gain - 1.0).abs() < 0.03, "{} {gain}", energy / before);
     }
 
     #[test]
     fn the_adjoint_is_the_transpose() {
         let (light, turned) = (values(1.0), values(2.0));
-        let rotation = LightRotation::new(ROWS, rotation());
+        let rotation = LightRotation::new(ROWS, rotation(), Vec3::ZERO);
         let dot = |a: &[f32], b: &[f32]| -> f64 {
             a.iter().zip(b).map(|(a, b)| f64::from(*a) * f64::from(*b)).sum()
         };

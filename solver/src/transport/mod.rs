@@ -182,6 +182,11 @@ impl Transport {
         self.sky.nearness
     }
 
+    /// Whether it has the derivative of the shading with respect to nearness.
+    pub fn has_nearness(&self) -> bool {
+        self.by_nearness.is_some()
+    }
+
     /// The sky's centre.
     pub fn centre(&self) -> Vec3 {
         self.centre

@@ -28,7 +28,7 @@ pub(super) struct ExplicitModel<'a> {
     has_grey_prior: bool,
     pub(super) transport: &'a Transport,
     illuminations: &'a Illuminations,
-    samples: Samples,
+    pub(super) samples: Samples,
     split: Vec<PartOfSamples>,
     /// One for each part of `split`.
     parts: Vec<ModelPart>,
@@ -105,14 +105,14 @@ impl<'a> ExplicitModel<'a> {
     }
 
     /// The light of a part.
-    fn light<'b>(&self, light: &'b [f32], part: &ModelPart) -> Cow<'b, [f32]> {
-        self.illuminations.light(light, part.illumination)
+    fn light<'b>(&self, light: &'b [f32], part: &ModelPart, nearness: f32) -> Cow<'b, [f32]> {
+        self.illuminations.light(light, part.illumination, nearness)
     }
 
     /// The shading of every part; without `all_rows`, only where its samples read it.
     fn shadings(&self, light: &[f32], relative_nearness: f32, all_rows: bool) -> Vec<Shading> {
         let shading = |part: &ModelPart| {
-            let light = self.light(light, part);
+            let light = self.light(light, part, relative_nearness);
             let (values, by_nearness) = match all_rows {
                 true => self.transport.shading_nearer(&light, relative_nearness),
                 false => self.transport.shading_of_rows(&light, relative_nearness, &part.rows),
@@ -129,9 +129,10 @@ impl<'a> ExplicitModel<'a> {
     }
 
     /// The predicted highlights of all samples.
-    fn highlights(&self, light: &[f32]) -> Planes {
+    fn highlights(&self, light: &[f32], relative_nearness: f32) -> Planes {
         self.by_parts(|_, part| {
-            let radiance = part.reflection.radiance(&self.light(light, part));
+            let light = self.light(light, part, relative_nearness);
+            let radiance = part.reflection.radiance(&light);
             Planes::from_fn(radiance.len(), |i| radiance[i])
         })
     }
@@ -170,7 +171,7 @@ impl<'a> ExplicitModel<'a> {
         });
         let observed =
             |i: usize| std::array::from_fn(|c| samples.target.get(c, i) - layer.get(c, i));
-        let predicted = self.highlights(light);
+        let predicted = self.highlights(light, relative_nearness);
         // Diffuse radiance of one illumination does not depend on the view; else it is that of its shading.
         let basis = (self.parts.len() > 1).then(|| {
             self.by_parts(|at, part| part.samples.taps.sample::<CHANNELS>(&shadings[at].values))
@@ -196,10 +197,11 @@ impl<'a> ExplicitModel<'a> {
     pub(super) fn highlight_limits(
         &self,
         light: &[f32],
+        relative_nearness: f32,
         weight: &Planes,
         regions: &[u8],
     ) -> [f32; 256] {
-        let predicted = self.highlights(light);
+        let predicted = self.highlights(light, relative_nearness);
         let mut limits: Vec<Vec<(f32, f32)>> = vec![vec![]; 256];
         for i in 0..self.samples.len() {
             let highlight: [f32; CHANNELS] = predicted.sample(i, 0);
@@ -247,8 +249,8 @@ impl<'a> ExplicitModel<'a> {
                 });
                 (by, (by, loss))
             };
-            let (by_light, by_sample) =
-                part.reflection.exchange(&self.light(&light, part), residual);
+            let light = self.light(&light, part, relative_nearness);
+            let (by_light, by_sample) = part.reflection.exchange(&light, residual);
             let by_layer = Planes::from_fn(samples.len(), |i| by_sample[i].0);
             let by_layer = samples.taps.gather::<CHANNELS>(&by_layer, 0);
             let texels = by_albedo.iter_mut().zip(by_layer.iter().zip(&shading.values));
@@ -261,22 +263,26 @@ impl<'a> ExplicitModel<'a> {
         let size = self.transport.size();
         let smoothness = albedo_prior(albedo, size, self.prior_weight, &mut by_albedo);
         let mut by_log_light = vec![0.0; log_light.len()];
+        let mut by_relative_nearness = 0.0;
         let highlights = by_lights_of_highlights.iter().zip(&by_shadings);
-        for (part, (by_highlights, by_shading)) in self.parts.iter().zip(highlights) {
+        for ((part, shading), (by_highlights, by_shading)) in
+            self.parts.iter().zip(&shadings).zip(highlights)
+        {
             let mut by_light = self.transport.adjoint_nearer(by_shading, relative_nearness);
             by_light.iter_mut().zip(by_highlights).for_each(|(sum, by)| *sum += by);
-            self.illuminations.add_adjoint(&by_light, part.illumination, &mut by_log_light);
+            let (lights, at) = (self.illuminations, part.illumination);
+            lights.add_adjoint(&by_light, at, relative_nearness, &mut by_log_light);
+            let of_shading = shading.by_nearness.as_deref().map(|slopes| dot(slopes, by_shading));
+            let of_light =
+                lights.light_by_nearness(&light, at).map(|slopes| dot(&slopes, &by_light));
+            by_relative_nearness += of_shading.unwrap_or(0.0) + of_light.unwrap_or(0.0);
         }
         by_log_light.iter_mut().zip(&light).for_each(|(by, light)| *by *= light);
         let colour = self.light_colour(log_light, &mut by_log_light);
-        let by_nearness = shadings.iter().zip(&by_shadings).map(|(shading, by_shading)| {
-            let slopes = shading.by_nearness.iter().flatten();
-            slopes.zip(by_shading).map(|(a, b)| f64::from(*a) * f64::from(*b)).sum::<f64>()
-        });
         Gradient {
             loss: loss + smoothness + colour + grey,
             by_log_light,
-            by_relative_nearness: by_nearness.sum::<f64>() as f32,
+            by_relative_nearness: by_relative_nearness as f32,
             by_albedo,
         }
     }
@@ -290,6 +296,10 @@ impl<'a> ExplicitModel<'a> {
         let weight = colour / groups as f32;
         groups_of.map(|(log, by)| light_colour(log, weight, colour_softness, by)).sum()
     }
+}
+
+fn dot(a: &[f32], b: &[f32]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| f64::from(*a) * f64::from(*b)).sum()
 }
 
 /// The products of the values of two textures.

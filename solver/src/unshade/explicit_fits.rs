@@ -71,16 +71,19 @@ impl<'a> LightFit<'a> {
     }
 }
 
-/// Light and diffuse albedo together; the distance of the light is held fixed.
+/// Light and diffuse albedo together. The distance of the light is fitted too if the transport has its derivative.
 pub(super) struct JointFit<'a> {
     /// Logarithm of the radiance, see [`Illuminations`](super::illuminations::Illuminations).
     pub log_light: Vec<f32>,
     /// The diffuse albedo, R, G, B per texel of the transport.
     pub albedo: Vec<f32>,
-    model: ExplicitModel<'a>,
+    /// One value: the change of the transport's nearness, see [`Transport::nearness_unit`].
+    pub relative_nearness: Vec<f32>,
+    pub model: ExplicitModel<'a>,
     iterations: usize,
     light_adam: Adam,
     albedo_adam: Adam,
+    nearness_adam: Adam,
 }
 
 impl<'a> JointFit<'a> {
@@ -97,6 +100,8 @@ impl<'a> JointFit<'a> {
             iterations,
             light_adam: Adam::new(&adam, joint.light_rate, log_light.len()),
             albedo_adam: Adam::new(&adam, joint.albedo_rate, albedo.len()),
+            nearness_adam: Adam::new(&adam, config.light.nearness_rate, 1),
+            relative_nearness: vec![0.0],
             log_light,
             albedo,
             model,
@@ -110,16 +115,20 @@ impl Fit for JointFit<'_> {
     }
 
     fn gradient(&self, _: &dyn Backend) -> (f64, Vec<Vec<f32>>) {
-        // The transport was cast at the light's distance already.
-        let relative_nearness = 0.0;
-        let gradient = self.model.gradient(&self.log_light, relative_nearness, &self.albedo);
-        (gradient.loss, vec![gradient.by_log_light, gradient.by_albedo])
+        let gradient =
+            self.model.gradient(&self.log_light, self.relative_nearness[0], &self.albedo);
+        let by_nearness = vec![gradient.by_relative_nearness];
+        (gradient.loss, vec![gradient.by_log_light, gradient.by_albedo, by_nearness])
     }
 
     fn variables(&mut self) -> Vec<Variable<'_>> {
+        let transport = self.model.transport;
+        let given = transport.nearness_per_metre() / transport.nearness_unit();
+        let nearness = Variable::new(&mut self.relative_nearness, &mut self.nearness_adam, -given);
         vec![
             Variable::new(&mut self.log_light, &mut self.light_adam, f32::NEG_INFINITY),
             Variable::new(&mut self.albedo, &mut self.albedo_adam, 0.0),
+            Variable { maximum: transport.max_relative_nearness() - given, ..nearness },
         ]
     }
 }

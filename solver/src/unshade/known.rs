@@ -34,11 +34,12 @@ impl<'a> Known<'a> {
         Self { truth, picture_scale }
     }
 
-    /// The configuration, in which a known light has no learning rate.
+    /// The configuration, in which a known light has no learning rates.
     pub fn configured(&self, config: &UnshadeConfig) -> UnshadeConfig {
         let mut config = config.clone();
         if self.has_light() {
             config.joint.light_rate = 0.0;
+            config.light.nearness_rate = 0.0;
         }
         config
     }
@@ -64,7 +65,7 @@ impl<'a> Known<'a> {
         let cells: Vec<f32> = light.pictures.iter().flat_map(means).collect();
         let relative = nearness / far.nearness_unit();
         let mean = |illumination: usize| {
-            let light = illuminations.light(&cells, illumination);
+            let light = illuminations.light(&cells, illumination, relative);
             let shading = luminances(&far.shading_nearer(&light, relative).0);
             shading.iter().sum::<f32>() / shading.len().max(1) as f32
         };

@@ -10,6 +10,7 @@ use super::region_terms::{RegionTerms, uniformity};
 use super::tint::without_tint;
 use super::two_fold::{TwoFoldLightFit, fold_disagreement, mean};
 use crate::config::UnshadeConfig;
+use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::run::Run;
 use crate::run::error::SolveError;
@@ -62,9 +63,9 @@ pub(super) fn fit_light(
     estimate: &LightEstimate,
     round: usize,
 ) -> Result<LightEstimate, SolveError> {
-    let (lights, samples) = (data.illuminations, data.samples_of_skin());
-    let terms = estimate.terms.texture(data.regions);
     let nearness_per_metre = estimate.nearness_per_metre;
+    let (lights, samples) = (&data.illuminations.around(far), data.samples_of_skin());
+    let terms = estimate.terms.texture(data.regions);
     let model = |samples: &Samples, log_light: &[f32]| {
         let light = exp(log_light);
         ExplicitModel::new(config, far, lights, samples, &terms, &light, nearness_per_metre)
@@ -93,17 +94,10 @@ pub(super) fn fit_light(
     // The weights of all regions. They align with the model's samples, since `samples_of_skin` changes weights alone
     // and `thinned` chooses samples by their number alone.
     let weight = data.samples.thinned(config.light.samples).weight;
-    let errors = Some(&config.model_error);
-    let regression =
-        model.regression(&light, relative_nearness, data.region_colours, &weight, errors);
     let factor = relative_peak(far, lights, &light, &exp(&estimate.log_light));
-    let terms = estimate.terms.relative_to(factor).with_reflectance(
-        &config.reflectance,
-        uniformity(lights.contrast(config.transport.rows, &light)),
-        &regression,
-        data.regions,
-        &model.highlight_limits(&light, &weight, data.regions),
-    );
+    let highlights =
+        Highlights { model: &model, light: &light, relative_nearness, albedo: data.region_colours };
+    let terms = highlights.terms(config, data, &weight, &estimate.terms.relative_to(factor));
     let has_light = data.known.has_light();
     let tint = match round == config.light.rounds && !has_light {
         true => model.tint(&light, relative_nearness, data.region_colours),
@@ -152,6 +146,8 @@ pub(super) struct JointEstimate {
     /// [`Scene::picture_scale`](crate::scene::Scene::picture_scale) = albedo x S_d; times
     /// [`Scales::diffuse`](crate::maps::Scales::diffuse) the albedo is a reflectance.
     pub albedo: Vec<f32>,
+    /// Inverse distance of the light from the head's centre, per metre.
+    pub nearness_per_metre: f32,
     /// The specular terms relative to this light.
     pub terms: RegionTerms,
 }
@@ -162,6 +158,7 @@ impl JointEstimate {
         Self {
             log_light: light.log_light.clone(),
             albedo: without_tint(region_colours, &light.tint),
+            nearness_per_metre: light.nearness_per_metre,
             terms: light.terms.clone(),
         }
     }
@@ -169,6 +166,9 @@ impl JointEstimate {
 
 /// Fits light and diffuse albedo under the transport from the light's distance. The grey prior is for the first fit: a
 /// tint of the light and one of the skin look alike in diffuse shading until highlights are explained.
+///
+/// Lights that change tell shading from albedo. With the derivative of the `near` transport, the distance and the colour
+/// of the light and the reflectance of the regions are estimated again, now from an albedo of each texel.
 pub(super) fn fit_joint(
     run: &mut Run,
     name: &str,
@@ -178,15 +178,60 @@ pub(super) fn fit_joint(
     start: JointEstimate,
     has_grey_prior: bool,
 ) -> Result<JointEstimate, SolveError> {
-    let JointEstimate { log_light, albedo, terms } = start;
-    let (light, texture) = (exp(&log_light), terms.texture(data.regions));
-    let (lights, samples, nearness) = (data.illuminations, data.samples, near.nearness_per_metre());
-    let model = ExplicitModel::new(config, near, lights, samples, &texture, &light, nearness);
+    let JointEstimate { log_light, albedo, terms, nearness_per_metre } = start;
+    let lights = &data.illuminations.around(near);
+    let model = |terms: &RegionTerms, light: &[f32]| {
+        let texture = terms.texture(data.regions);
+        let nearness = near.nearness_per_metre();
+        ExplicitModel::new(config, near, lights, data.samples, &texture, light, nearness)
+    };
+    let light = exp(&log_light);
     let steps = if has_grey_prior { config.joint.grey_steps } else { config.joint.steps };
-    let model = model.with_grey_prior(has_grey_prior);
-    let mut fit = JointFit::new(config, model, steps, log_light, albedo);
+    let start = model(&terms, &light).with_grey_prior(has_grey_prior);
+    let mut fit = JointFit::new(config, start, steps, log_light, albedo);
     run.fit(name, &mut fit)?;
-    let JointFit { log_light, albedo, .. } = fit;
-    let terms = terms.relative_to(relative_peak(near, lights, &exp(&log_light), &light));
-    Ok(JointEstimate { log_light, albedo, terms })
+    let JointFit { mut log_light, mut albedo, relative_nearness, .. } = fit;
+    let new = exp(&log_light);
+    let mut terms = terms.relative_to(relative_peak(near, lights, &new, &light));
+    if near.has_nearness() && !data.known.has_light() {
+        let model = model(&terms, &new);
+        let relative_nearness = relative_nearness[0];
+        let highlights =
+            Highlights { model: &model, light: &new, relative_nearness, albedo: &albedo };
+        terms = highlights.terms(config, data, &model.samples.weight, &terms);
+        let tint = model.tint(&new, relative_nearness, &albedo);
+        log_light.iter_mut().zip(tint.iter().cycle()).for_each(|(log, tint)| *log += tint.ln());
+        albedo = without_tint(&albedo, &tint);
+    }
+    let nearness_per_metre = nearness_per_metre + relative_nearness[0] * near.nearness_unit();
+    Ok(JointEstimate { log_light, albedo, nearness_per_metre, terms })
+}
+
+/// The highlights that a light causes on an albedo.
+struct Highlights<'a> {
+    model: &'a ExplicitModel<'a>,
+    light: &'a [f32],
+    relative_nearness: f32,
+    albedo: &'a [f32],
+}
+
+impl Highlights<'_> {
+    /// The posterior of `terms`, which are relative to this light. `weight` has the weights of the model's samples.
+    fn terms(
+        &self,
+        config: &UnshadeConfig,
+        data: &LightFitData,
+        weight: &Planes,
+        terms: &RegionTerms,
+    ) -> RegionTerms {
+        let Self { model, light, relative_nearness, albedo } = *self;
+        let errors = Some(&config.model_error);
+        terms.with_reflectance(
+            &config.reflectance,
+            uniformity(data.illuminations.contrast(config.transport.rows, light)),
+            &model.regression(light, relative_nearness, albedo, weight, errors),
+            data.regions,
+            &model.highlight_limits(light, relative_nearness, weight, data.regions),
+        )
+    }
 }

@@ -48,9 +48,9 @@ impl<'a> Lighting<'a> {
         joint: &JointEstimate,
     ) -> Self {
         let radiance = exp(&joint.log_light);
-        let nearness = estimate.nearness_per_metre;
+        let nearness = joint.nearness_per_metre;
         let shading = |illumination: usize| {
-            let light = illuminations.light(&radiance, illumination);
+            let light = illuminations.light(&radiance, illumination, 0.0);
             [transport.shading(&light), transport.shading_by_normal(&light)]
         };
         Self {
@@ -108,7 +108,7 @@ impl<'a> Lighting<'a> {
         let specular = samples.taps.sample::<{ SpecularTerm::ROWS }>(&texture);
         let parts = self.illuminations.parts(samples);
         let highlights = parts.iter().map(|part| {
-            let light = self.illuminations.light(&self.radiance, part.illumination);
+            let light = self.illuminations.light(&self.radiance, part.illumination, 0.0);
             self.transport.skin_highlights(self.skin, &light, self.peak, light_exponent)
         });
         let highlights = highlights.collect();
@@ -132,7 +132,7 @@ impl<'a> Lighting<'a> {
     pub fn shadow_edges(&self, samples: &Samples) -> Planes {
         let parts = self.illuminations.parts(samples);
         by_parts::<1>(&parts, samples.len(), |_, part| {
-            let light = self.illuminations.light(&self.radiance, part.illumination);
+            let light = self.illuminations.light(&self.radiance, part.illumination, 0.0);
             let edges = self.transport.shadow_edges(&light);
             let edges = resample(&edges, self.size(), 1, samples.taps.size());
             part.samples(samples).taps.sample::<1>(&edges)

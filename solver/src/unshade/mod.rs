@@ -51,6 +51,10 @@ use crate::semantic::regions::FaceRegions;
 use crate::solution::Results;
 use crate::transport::{Sky, Transport};
 
+/// Further rounds of the joint fit under lights that change from frame to frame. Each begins from the distance that the
+/// one before has found.
+const CHANGING_LIGHT_ROUNDS: usize = 6;
+
 /// Recovers maps from a capture.
 pub(crate) fn solve(
     capture: &Capture,
@@ -71,9 +75,9 @@ pub(crate) fn solve(
     run.record_time("regions");
 
     let sky = Sky::lat_long(config.transport.rows);
-    let illuminations =
-        Illuminations::new(&capture.lights, capture.train.len(), config.transport.rows);
     let far = Transport::with_nearness(&capture.mesh, &sky, &config.transport, config.seed);
+    let (trained, rows) = (capture.train.len(), config.transport.rows);
+    let illuminations = Illuminations::new(&capture.lights, trained, rows, far.centre());
     run.record_time("rays");
     let pictures = scene.halved(light_halvings(scene.pixels(), config.light.samples));
     let coarse_samples =
@@ -98,22 +102,42 @@ pub(crate) fn solve(
         })?;
     }
 
-    let near = if run.is_interrupted() {
+    let transport = |nearness: f32, cast: fn(_: &_, _: &_, _: &_, _) -> _| {
+        let sky = sky.clone().at(nearness);
+        let bounces =
+            TransportConfig { bounce_albedo: light.bounce_albedo, ..config.transport.clone() };
+        cast(&capture.mesh, &sky, &bounces, config.seed)
+    };
+    let mut near = if run.is_interrupted() {
         far
     } else {
         // Both transports do not fit into memory.
         drop(far);
-        transport_at_distance(capture, config, &light)
+        transport(light.nearness_per_metre, Transport::new)
     };
     run.record_time("rays at the light's distance");
+    let seen = illuminations.at(light.nearness_per_metre);
+    let data = LightFitData { illuminations: &seen, ..data };
     let start = JointEstimate::new(&light, &region_colours);
     let grey = run.stage_from("joint, grey light", start, |run, name, start| {
         let start = recoloured(run.backend, &config.skin, &near, &data, start);
         fit_joint(run, name, config, &near, &data, start, true)
     })?;
-    let joint = run.stage_from("joint", grey, |run, name, grey| {
+    let mut joint = run.stage_from("joint", grey, |run, name, grey| {
         fit_joint(run, name, config, &near, &data, grey, false)
     })?;
+    if capture.lights.beyond_one_still_light().is_some() {
+        drop(near);
+        for round in 1..=CHANGING_LIGHT_ROUNDS {
+            joint = run.stage_from(&format!("joint {round}"), joint, |run, name, joint| {
+                let near = transport(joint.nearness_per_metre, Transport::with_nearness);
+                fit_joint(run, name, config, &near, &data, joint, false)
+            })?;
+        }
+        near = transport(joint.nearness_per_metre, Transport::new);
+        run.record_time("rays at the light's distance");
+    }
+    let illuminations = illuminations.at(joint.nearness_per_metre);
     drop(coarse_samples);
     let lighting = Lighting::new(config, &near, &illuminations, &coarse_regions, &light, &joint);
 
@@ -156,23 +180,11 @@ fn light_halvings(pixels: usize, samples: usize) -> usize {
     (2..).find(|halvings| pixels >> (2 * halvings) < samples.max(1)).unwrap_or(2) - 1
 }
 
-/// Casts the rays from the estimated distance of the light, with bounces by the face's own reflectance.
-fn transport_at_distance(
-    capture: &Capture,
-    config: &UnshadeConfig,
-    light: &LightEstimate,
-) -> Transport {
-    let sky = Sky::lat_long(config.transport.rows).at(light.nearness_per_metre);
-    let transport_config =
-        TransportConfig { bounce_albedo: light.bounce_albedo, ..config.transport.clone() };
-    Transport::new(&capture.mesh, &sky, &transport_config, config.seed)
-}
-
 /// The steps and costs of the stages, measured on two cores with AVX-512. The order is that of the [`Run::stage`] calls
 /// in [`solve`], with the maps at the end.
 pub(crate) fn plan(config: &UnshadeConfig, extent: &Extent) -> Vec<Work> {
     let square = |side: usize| (side * side) as f64;
-    let Extent { views, pixels, texture_size: size } = *extent;
+    let Extent { views, pixels, texture_size: size, has_changing_light } = *extent;
     let (full_samples, coarse_samples) = (pixels as f64, 0.25 * pixels as f64);
     let transport = &config.transport;
     let cells = (2 * transport.rows * transport.rows) as f64;
@@ -196,6 +208,8 @@ pub(crate) fn plan(config: &UnshadeConfig, extent: &Extent) -> Vec<Work> {
         .collect();
     plan.push(light(rays, config.joint.grey_steps));
     plan.push(light(0.0, config.joint.steps));
+    let rounds = if has_changing_light { CHANGING_LIGHT_ROUNDS } else { 0 };
+    plan.extend((0..rounds).map(|_| light(rays, config.joint.steps)));
     plan.push(work(25.0, 15.0, heights, relief::steps(&config.relief, size, views)));
     plan.push(work(6.0, 6.0, size as f64, config.albedo.steps));
     let roughness =

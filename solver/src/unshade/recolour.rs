@@ -28,13 +28,13 @@ pub(super) fn recoloured(
     let terms = Planes::from_fn(samples.len(), |i| estimate.terms.of(region(i)).channels());
     let (parts, peak) = (illuminations.parts(samples), illuminations.peak(transport, &light));
     let highlights = by_parts::<CHANNELS>(&parts, samples.len(), |_, part| {
-        let light = illuminations.light(&light, part.illumination);
+        let light = illuminations.light(&light, part.illumination, 0.0);
         let highlights = transport.skin_highlights(config, &light, peak, LIGHT_EXPONENT);
         let samples = part.samples(samples);
         backend.highlights(&highlights, &samples, &samples.normal, &part.planes(&terms))
     });
     let shading = by_parts::<CHANNELS>(&parts, samples.len(), |_, part| {
-        let light = illuminations.light(&light, part.illumination);
+        let light = illuminations.light(&light, part.illumination, 0.0);
         part.samples(samples).taps.sample::<CHANNELS>(&transport.shading(&light))
     });
     // Per region and channel: the sums of the observed radiance and of the radiance of a white surface.

@@ -105,7 +105,7 @@ pub(super) fn fold_disagreement(
     let (mut difference, mut sum) = (0.0, 0.0);
     for illumination in 0..illuminations.trained() {
         let [a, b] = lights.each_ref().map(|light| {
-            let light = illuminations.light(light, illumination);
+            let light = illuminations.light(light, illumination, relative_nearness);
             transport.shading_nearer(&light, relative_nearness).0
         });
         for (a, b) in a.iter().zip(&b) {

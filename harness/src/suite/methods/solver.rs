@@ -82,7 +82,8 @@ impl MethodWork for SolverMethod {
         let (views, pixels) = (size.views, size.covered as usize);
         let work = Config::from_toml(&self.config).map_or(0.0, |config| {
             let texture_size = config.texture_size().expected(views, pixels);
-            solver::seconds_on_two_cores(&config, &Extent { views, pixels, texture_size })
+            let extent = Extent { views, pixels, texture_size, has_changing_light: false };
+            solver::seconds_on_two_cores(&config, &extent)
         });
         // The work counts the steps, whatever the configuration; only the device differs.
         let class = format!("maps fields {:?}", self.backend);

@@ -62,6 +62,7 @@ fn missed(relief: ReliefConfig, fault: Fault) -> Missed {
     let joint = JointEstimate {
         log_light: lamp.collect(),
         albedo: vec![0.5; 3 * TEXELS],
+        nearness_per_metre: 0.0,
         terms: terms.clone(),
     };
     let estimate = LightEstimate::uniform(transport.cells(), 0.4, terms.clone());

@@ -285,6 +285,7 @@ fn highlights_show_the_roughness_of_skin() {
         let joint = JointEstimate {
             log_light: fit.log_light.clone(),
             albedo: lamp.albedo.clone(),
+            nearness_per_metre: transport.nearness_per_metre(),
             terms: terms.clone(),
         };
         let one = Illuminations::one();

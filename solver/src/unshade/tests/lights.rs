@@ -14,25 +14,29 @@ const KEY: Vec3 = Vec3::new(0.57, 0.46, 0.68);
 /// From the left.
 const SIDE: Vec3 = Vec3::new(-0.77, 0.1, 0.63);
 
+/// A lamp's place and power, in the camera's frame.
+const LAMP: Vec3 = Vec3::new(2.5, 2.0, -0.5);
+const LAMP_POWER: f32 = 15.0;
+
 /// The albedo of the dome: its regions under a gradient that a shading can look like.
 fn albedo(position: Vec3) -> Vec3 {
     region(position).1 * (1.0 + 0.35 * position.x - 0.25 * position.y)
 }
 
-/// Writes a capture of the dome whose frames have a soft lamp in these directions in the head's frame, and opens it
-/// after an edit of its `transforms.json`.
+/// Writes a capture of the dome whose frames have a lamp of this irradiance at a point (frame, camera, point) and a
+/// little light from everywhere, and opens it after an edit of its `transforms.json`.
 fn lit(
     folder: &Path,
-    direction: impl Fn(usize, &capture::Camera) -> Vec3,
+    cameras: &[capture::Camera],
+    irradiance: impl Fn(usize, &capture::Camera, Vec3) -> f32,
     edit: impl FnOnce(&mut Value),
 ) -> Capture {
     let mesh = testing::dome(24);
     let view = |(frame, camera): (usize, &capture::Camera)| {
-        let lamp = direction(frame, camera);
-        let shade = |p: Vec3| (albedo(p) * (0.2 + 0.8 * p.dot(lamp).max(0.0)), region(p).0);
+        let shade = |p: Vec3| (albedo(p) * (0.2 + 0.8 * irradiance(frame, camera, p)), region(p).0);
         testing::view(&mesh, camera, shade)
     };
-    let views: Vec<View> = testing::rig(VIEWS, 48).iter().enumerate().map(view).collect();
+    let views: Vec<View> = cameras.iter().enumerate().map(view).collect();
     testing::write_capture(folder, &mesh, &views, 1);
     let path = folder.join("transforms.json");
     let mut transforms = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
@@ -42,23 +46,40 @@ fn lit(
 }
 
 fn still(folder: &Path) -> Capture {
-    lit(folder, |_, _| KEY, |_| ())
+    lit(folder, &testing::rig(VIEWS, 48), |_, _, p| p.dot(KEY).max(0.0), |_| ())
 }
 
 /// A light in the camera's frame, as a head that turns before a still camera has it.
 fn turning(folder: &Path, is_stated: bool) -> Capture {
-    let turned = |_: usize, camera: &capture::Camera| camera.camera_to_world.transform_vector3(KEY);
-    lit(folder, turned, |transforms| {
+    let turned = |_: usize, camera: &capture::Camera, p: Vec3| {
+        p.dot(camera.camera_to_world.transform_vector3(KEY)).max(0.0)
+    };
+    lit(folder, &testing::rig(VIEWS, 48), turned, |transforms| {
         if is_stated {
             transforms["light_frame"] = json!("camera");
         }
     })
 }
 
+/// A head that turns before a still camera and a lamp, around an axis at 0.6 from its centre.
+fn on_a_chair(folder: &Path) -> Capture {
+    let camera = |frame: usize| {
+        let (sine, cosine) = (0.18 * (frame as f32 - (VIEWS as f32 - 1.0) / 2.0)).sin_cos();
+        testing::camera(&format!("{frame:03}"), 3.5 * Vec3::new(sine, 0.0, cosine), 48)
+    };
+    let cameras: Vec<_> = (0..VIEWS).map(camera).collect();
+    let lamp = |_: usize, camera: &capture::Camera, p: Vec3| {
+        let towards = camera.camera_to_world.transform_point3(LAMP) - p;
+        LAMP_POWER * p.dot(towards).max(0.0) / towards.length().powi(3)
+    };
+    lit(folder, &cameras, lamp, |transforms| transforms["light_frame"] = json!("camera"))
+}
+
 /// Two lights by turns.
 fn by_turns(folder: &Path, is_stated: bool) -> Capture {
-    let lights = |frame: usize, _: &capture::Camera| [KEY, SIDE][frame % 2];
-    lit(folder, lights, |transforms| {
+    let lights =
+        |frame: usize, _: &capture::Camera, p: Vec3| p.dot([KEY, SIDE][frame % 2]).max(0.0);
+    lit(folder, &testing::rig(VIEWS, 48), lights, |transforms| {
         if is_stated {
             let frames = transforms["frames"].as_array_mut().unwrap();
             let name = |frame: usize| json!(["key", "side"][frame % 2]);
@@ -139,6 +160,20 @@ fn lights_that_move_or_change_separate_albedo_from_shading() {
 }
 
 #[test]
+fn the_distance_of_a_light_that_moves_is_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let capture = on_a_chair(&folder.path().join("chair"));
+    let solution = solved(&capture);
+    let distances = capture.train.iter().map(|view| {
+        let lamp = view.camera.camera_to_world.transform_point3(LAMP);
+        lamp.distance(Vec3::new(0.0, 0.0, 0.6))
+    });
+    let mean = distances.sum::<f32>() / capture.train.len() as f32;
+    let found = solution.record.light_distance.unwrap_or(f32::INFINITY);
+    assert!((found / mean).ln().abs() < 0.2, "{found} for {mean}");
+}
+
+#[test]
 fn every_light_is_written_and_its_frame_recorded() {
     let folder = tempfile::tempdir().unwrap();
     let config = Config::Unshade(super::interrupts::short());
@@ -185,13 +220,14 @@ fn gradients_reach_the_lights_of_all_groups() {
     config.transport.rows = 4;
     let turned = turning(&folder.path().join("turning"), true);
     for lights in [&frames.lights, &turned.lights] {
-        let illuminations = Illuminations::new(lights, VIEWS - 1, 4);
         let gbuffers = GBuffer::of_views(&frames.mesh, &frames.train);
         let space = SampleSpace::default();
         let mut samples = space.training(&frames.train, &gbuffers, None, SIDE);
         samples.target = crate::model::planes::Planes::new(3, samples.len());
         let transport =
             Transport::with_nearness(&frames.mesh, &Sky::lat_long(4), &config.transport, 0);
+        let illuminations =
+            Illuminations::new(lights, VIEWS - 1, 4, transport.centre()).around(&transport);
         let cells = illuminations.groups() * 3 * transport.cells();
         let light: Vec<f32> = (0..cells).map(|i| (i as f32 * 0.37).sin()).collect();
         let albedo: Vec<f32> =

@@ -37,6 +37,7 @@ fn under_a_known_light_hair_in_the_shade_gets_its_own_colour_and_skin_stays() {
     let estimate = JointEstimate {
         log_light: cells.iter().flat_map(|w| [(1.0 + FALL.dot(*w)).ln(); 3]).collect(),
         albedo: before.clone(),
+        nearness_per_metre: 0.0,
         terms: RegionTerms::prior(0.0, &face.skin, &regions),
     };
     let data = LightFitData {
