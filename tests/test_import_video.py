@@ -11,6 +11,7 @@ import cv2
 import numpy as np
 import painted_capture
 import pytest
+from PIL import Image
 
 import unshade
 from conftest import CASE
@@ -86,7 +87,37 @@ def test_unknown_exposures_are_stated_for_the_solver(video: Path, tmp_path: Path
     with pytest.raises(CaptureError, match="exposures are unknown and the light moves"):
         imported(video, tmp_path / "x", unknown_exposure=True, light_frame="camera")
     with pytest.raises(CaptureError, match="unknown_exposure is for exposures that no file states"):
-        imported(video, tmp_path / "x", unknown_exposure=True, brackets=3)
+        imported(video, tmp_path / "x", unknown_exposure=True, even_exposure=True)
+
+
+def test_brackets_of_unknown_white_balance(tmp_path: Path) -> None:
+    """The times in EXIF merge each bracket; the white balance, which no file states, is left to the solver."""
+    taken = painted_capture.views((-30, -10, 10, 30), textured)
+    folder = painted_capture.write(tmp_path / "brackets", taken)
+    document = json.loads((folder / "transforms.json").read_text())
+    balances = [(1.0, 1.0, 1.0), (1.3, 1.0, 0.8), (0.8, 1.0, 1.3), (1.1, 1.0, 1.2)]
+    for number, (view, balance, frame) in enumerate(zip(taken, balances, document["frames"])):
+        for place, seconds in enumerate((0.1, 0.4, 1.6)):
+            exif = Image.Exif()
+            exif[0x8769] = {0x829A: seconds * 1.5**number, 0x829D: 1.0, 0x8827: 100}
+            codes = painted_capture.srgb_codes(view.radiance * balance * seconds * 1.5**number)
+            Image.fromarray(codes).save(folder / "images" / f"{view.name}-{place}.png", exif=exif)
+        (folder / "images" / f"{view.name}.png").unlink()
+        (folder / "masks" / f"{view.name}.png").rename(folder / "masks" / f"{view.name}-0.png")
+        frame["file_path"] = f"images/{view.name}-0.png"
+    (folder / "transforms.json").write_text(json.dumps(document))
+    out = tmp_path / "capture"
+    document, record = imported(folder, out, brackets=3, unknown_exposure=True)
+    assert document["exposure"] == "unknown" and record["brackets"] == 3
+    factors = []
+    for view, balance, frame in zip(taken, balances, document["frames"], strict=True):
+        picture = read_rgb(out / frame["file_path"])
+        factors.append(np.median(picture[view.mask] / (view.radiance * balance)[view.mask], axis=0))
+    np.testing.assert_allclose(factors, np.broadcast_to(np.mean(factors), (4, 3)), rtol=0.05)
+    for picture in folder.glob("images/*.png"):
+        Image.open(picture).save(picture)
+    with pytest.raises(CaptureError, match="has no exposure time in its EXIF"):
+        imported(folder, tmp_path / "x", brackets=3, unknown_exposure=True)
 
 
 def imported_again(capture: Path, out: Path) -> dict[str, Any]:

@@ -60,10 +60,8 @@ class Choices:
                 raise CaptureError(f"{name} is {value}; it must be from 1 to {maximum}")
         if self.frames is not None and self.frames < 3:
             raise CaptureError(f"frames is {self.frames}; a capture needs at least three")
-        if self.unknown_exposure and (self.even_exposure or self.brackets > 1):
-            raise CaptureError(
-                "unknown_exposure is for exposures that no file states; leave it out, or even_exposure and brackets"
-            )
+        if self.unknown_exposure and self.even_exposure:
+            raise CaptureError("unknown_exposure is for exposures that no file states; leave it or even_exposure out")
         if isinstance(self.holdout, int) and self.holdout < 2:
             raise CaptureError(f"holdout is {self.holdout}; every second view is the most that can be withheld")
         if self.labels is not None and self.parser is None:
