@@ -47,7 +47,7 @@ def darker(tiny_run: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     changed = package.Maps.read(maps)
     changed.diffuse_albedo = changed.diffuse_albedo * 0.97
     changed.write(maps)
-    # The method's own views, its light and its deviations are no part of what is read and written.
+    # `Maps` reads and writes neither the method's own views nor its light and deviations.
     shutil.copytree(tiny_run / "maps" / CASE / "quick" / "views", maps / "views")
     for file in ("light.exr", "diffuse_albedo_std.exr"):
         shutil.copy(tiny_run / "maps" / CASE / "quick" / file, maps)

@@ -91,7 +91,7 @@ impl FrameLights {
     }
 
     /// The reason why one light that stands still with respect to the head does not describe all frames, with the key
-    /// of `transforms.json` that says so; none for one such light.
+    /// of `transforms.json` that says so, if there is one.
     pub fn beyond_one_still_light(&self) -> Option<&'static str> {
         match (self.frame, self.groups()) {
             (LightFrame::Camera, _) => {

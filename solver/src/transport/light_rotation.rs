@@ -9,6 +9,8 @@ use super::sky::Sky;
 
 /// Points along a side of a cell at which the turned light is read.
 const POINTS: usize = 32;
+/// Largest distance of the head's centre from the light's, in units of the light's distance.
+const LARGEST_OFFSET: f32 = 0.8;
 
 /// The matrix from a light of R, G, B per cell of a lat-long sky to the mean of the turned light over each cell.
 ///
@@ -22,10 +24,12 @@ pub struct LightRotation {
 
 impl LightRotation {
     /// `rotation` takes directions in the frame of the light to those of the head; the sky has `rows` rows. `offset` is
-    /// the head's centre from the light's, in the frame of the light and in units of the light's distance.
+    /// the head's centre from the light's, in the frame of the light and in units of the light's distance; it ends within
+    /// the sphere of the light.
     pub fn new(rows: usize, rotation: Mat3, offset: Vec3) -> Self {
         let columns = 2 * rows;
-        let (back, offset) = (rotation.as_dmat3().transpose(), offset.as_dvec3());
+        let back = rotation.as_dmat3().transpose();
+        let offset = offset.clamp_length_max(LARGEST_OFFSET).as_dvec3();
         let points = Sky::lat_long(rows).points(POINTS);
         let overlaps = points.chunks_exact(POINTS * POINTS).map(|points| {
             let mut cells: Vec<u32> = points

@@ -79,7 +79,7 @@ pub(super) struct JointFit<'a> {
     pub albedo: Vec<f32>,
     /// One value: the change of the transport's nearness, see [`Transport::nearness_unit`].
     pub relative_nearness: Vec<f32>,
-    pub model: ExplicitModel<'a>,
+    model: ExplicitModel<'a>,
     iterations: usize,
     light_adam: Adam,
     albedo_adam: Adam,

@@ -203,7 +203,8 @@ pub(super) fn fit_joint(
         log_light.iter_mut().zip(tint.iter().cycle()).for_each(|(log, tint)| *log += tint.ln());
         albedo = without_tint(&albedo, &tint);
     }
-    let nearness_per_metre = nearness_per_metre + relative_nearness[0] * near.nearness_unit();
+    let nearer = relative_nearness[0] * near.nearness_unit();
+    let nearness_per_metre = (nearness_per_metre + nearer).max(0.0);
     Ok(JointEstimate { log_light, albedo, nearness_per_metre, terms })
 }
 

@@ -116,8 +116,6 @@ pub(crate) fn solve(
         transport(light.nearness_per_metre, Transport::new)
     };
     run.record_time("rays at the light's distance");
-    let seen = illuminations.at(light.nearness_per_metre);
-    let data = LightFitData { illuminations: &seen, ..data };
     let start = JointEstimate::new(&light, &region_colours);
     let grey = run.stage_from("joint, grey light", start, |run, name, start| {
         let start = recoloured(run.backend, &config.skin, &near, &data, start);

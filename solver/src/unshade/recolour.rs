@@ -19,10 +19,11 @@ pub(super) fn recoloured(
     data: &LightFitData,
     mut estimate: JointEstimate,
 ) -> JointEstimate {
-    let LightFitData { known, illuminations, samples, regions, face, .. } = *data;
+    let LightFitData { known, samples, regions, face, .. } = *data;
     if face.skin.is_empty() && !known.has_light() {
         return estimate;
     }
+    let illuminations = data.illuminations.around(transport);
     let light = exp(&estimate.log_light);
     let region = |i: usize| regions[samples.taps.nearest(i)];
     let terms = Planes::from_fn(samples.len(), |i| estimate.terms.of(region(i)).channels());
