@@ -58,11 +58,15 @@ def test_a_click_on_a_heading_sorts_and_dashes_stay_last(opened: browser.Page) -
         found = numbers(opened, 2)
         assert found == sorted(found, key=lambda value: order * value)
         assert len(set(found)) > 1
-    opened.run(click % 4)
-    found = numbers(opened, 4)
-    assert np.isfinite(found[0]) and np.isnan(found[-1])
+    # What failed has no value either.
+    cell = "[...document.querySelectorAll('.summary tbody tr')].find(row => row.cells[4].textContent === '%s').cells[4]"
+    opened.run(f"({cell % '–'}).textContent = 'failed'")
     for _ in range(2):
         opened.run(click % 4)
+        found = numbers(opened, 4)
+        assert np.isfinite(found[0]) and np.isnan(found[-1])
+    opened.run(f"({cell % 'failed'}).textContent = '–'")
+    opened.run(click % 4)
     np.testing.assert_array_equal(numbers(opened, 4), before)
 
 
@@ -153,6 +157,10 @@ def test_tables_are_beside_the_page_as_files(report: Path) -> None:
     with (report.parent / "tables" / "key-figures.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
     assert rows[0]["method"] == "quick" and len(rows) == 3
+    figures = json.loads((report.parent / "tables" / "key-figures.json").read_text())
+    for row, named in zip(figures, rows, strict=True):
+        assert all(value is None or isinstance(value, float) for value in list(row.values())[2:]), row
+        assert all(not value or float(value) == row[name] for name, value in list(named.items())[2:])
     full = json.loads(next(report.parent.glob("tables/*/every-score.json")).read_text())
     scores = json.loads(next(report.parent.glob("data/*/quick.json")).read_text())["rows"]
     by_id = {row["id"]: row["quick"] for row in full}

@@ -111,7 +111,7 @@ def test_a_sun_in_surroundings_casts_the_path_tracers_shadows(head: Head, tiny_r
     assert psnr > 36
 
 
-def test_every_layer_is_shown(head: Head) -> None:
+def test_every_layer_is_shown(head: Head, tiny_run: Path) -> None:
     layers = head.page.run("[...document.getElementById('layer').options].map(({ value }) => value)")
     assert {"shaded", "diffuse", "specular", "diffuse_albedo", "labels", "views", "error-diffuse_albedo"} <= set(layers)
     seen = set()
@@ -125,6 +125,12 @@ def test_every_layer_is_shown(head: Head) -> None:
     assert len(seen) == len(layers)
     head.choose("layer", "error-specular_normal")
     assert "degrees" in head.page.run("document.getElementById('scale').textContent")
+    # The scale of a stated deviation ends where its values do.
+    head.choose("layer", "diffuse_albedo_std")
+    head.page.until("!document.getElementById('scale').textContent.includes('degrees')")
+    stated = np.array(mi.Bitmap(str(tiny_run / "maps" / CASE / "quick" / "diffuse_albedo_std.exr")))[..., 1]
+    top = float(head.page.run("document.getElementById('top').textContent.match(/[\\d.]+/)[0]"))
+    assert top == pytest.approx(np.quantile(stated[stated > 0], 0.98), rel=0.02)
 
 
 def test_parts_add_up_and_errors_are_those_of_the_metrics(head: Head) -> None:
@@ -175,7 +181,7 @@ def test_the_answer_names_the_worst_method_and_the_view_that_shows_it(head: Head
     head.page.until("unshadeView.told !== undefined")
     told = head.page.run("""(({ panes, predicted, observations, answer }) => ({
         panes: panes.map(({ pane, values }) => [pane.title, (pane.factor ?? 1), values.diffuse_albedo]),
-        answer, cameras: observations.map(({ camera }) => camera.name),
+        answer, cameras: observations.map(({ camera }) => camera.name), cosines: observations.map(({ cosine }) => cosine),
         sums: predicted.map(({ pane, parts }) => [pane.title, parts.map(({ diffuse, specular }) =>
             unshadeView.luminance(diffuse) + unshadeView.luminance(specular))]) }))(unshadeView.told)""")
     (_, _, exact), *methods = told["panes"]
@@ -186,13 +192,13 @@ def test_the_answer_names_the_worst_method_and_the_view_that_shows_it(head: Head
         for title, factor, rgb in methods
     }
     said = told["answer"]["found"]
-    assert said[0].startswith("Diffuse albedo, worst first: ")
-    listed = [(title, said[0].index(title + " ΔE")) for title in sorted(errors, key=errors.__getitem__, reverse=True)]
+    assert said[0].startswith("Diffuse albedo of this texel after one factor, worst first: ")
+    listed = [(title, said[0].index(title + " CIEDE2000")) for title in sorted(errors, key=errors.__getitem__, reverse=True)]
     assert listed == sorted(listed, key=lambda each: each[1])
-    assert all(f"{title} ΔE₀₀ {error:.1f}" in said[0] for title, error in errors.items())
+    assert all(f"{title} CIEDE2000 {error:.1f}" in said[0] for title, error in errors.items())
     assert said[1].startswith(f"{len(told['cameras'])} of ")
     sums, worst = dict(told["sums"]), listed[0][0]
-    gaps = np.abs(np.subtract(sums[worst], sums["truth"]))
+    gaps = np.abs(np.subtract(sums[worst], sums["truth"])) * told["cosines"]
     assert told["answer"]["clearest"] == gaps.argmax()
     assert f"View {told['cameras'][gaps.argmax()]} shows it best: {worst} predicts" in said[-1]
     before = head.state()["camera"]
@@ -242,13 +248,21 @@ def test_the_address_restores_the_state(head: Head) -> None:
 
 def test_a_worst_spot_is_a_click_away(head: Head) -> None:
     spots = head.page.run("[...document.querySelectorAll('#patches button')].map(({ textContent }) => textContent)")
-    # By the error over what the method states.
-    values = [float(re.search(r"([\d.]+) times what the method states", text)[1]) for text in spots]
+    values = [float(re.match(r"[\d.]+", text)[0]) for text in spots]
     assert 0 < len(spots) <= 10 and values == sorted(values, reverse=True)
+    assert all("times what the method states" in text for text in spots)
     head.page.run("document.querySelector('#patches button').click()")
     head.page.until("document.querySelector('#story .facts') !== null")
     state = head.state()
     assert state["spot"] and state["layer"] == "error-diffuse_albedo"
+    assert head.page.run("document.querySelectorAll('#patches [aria-current]').length") == 1
+    # The link restores the spot with its story; the front view is a click away.
+    address, camera = head.page.run("location.hash"), state["camera"]
+    head.open(address)
+    head.page.until("document.querySelector('#story .facts') !== null")
+    np.testing.assert_allclose(head.state()["spot"], state["spot"], atol=1e-6)
+    head.page.run("document.getElementById('front').click()")
+    assert head.state()["camera"][:2] == [0, 0] != camera[:2]
 
 
 def test_surroundings_from_a_file_are_exposed_as_lights_are(head: Head, tmp_path: Path) -> None:
@@ -277,7 +291,14 @@ def test_a_dropped_file_stands_as_the_captures_light_does(
         mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False
     )
     light.write(str(tmp_path / f"light.{ending}"))
+    # Chosen with its listener asleep, then dropped on the page.
+    head.page.run("document.getElementById('file').addEventListener('change', (e) => e.stopImmediatePropagation(), true)")
     head.page.give_file("#file", tmp_path / f"light.{ending}")
+    head.page.run("""(() => {
+        const dataTransfer = new DataTransfer();
+        dataTransfer.items.add(document.getElementById('file').files[0]);
+        document.dispatchEvent(new DragEvent('drop', { dataTransfer, bubbles: true, cancelable: true }));
+    })()""")
     head.page.until("unshadeView.state.light === 'file0'")
     found = head.linear("truth")[..., :3]
     # The capture's lamps were exposed where they stand, those of a file at infinity.
@@ -328,18 +349,29 @@ def test_a_phones_width_is_enough(head: Head) -> None:
         "(({ width, height }) => [width, height])(document.getElementById('stage').getBoundingClientRect())"
     )
     assert stage[0] == 420 and stage[1] >= 300
+    head.page.run("document.querySelector('#patches button').click()")
+    head.page.until("document.querySelector('#story .facts') !== null")
+    assert head.page.run("document.documentElement.scrollWidth") <= 420
     assert len(head.page.run("unshadeView.cells()")) == 3
 
 
-def test_a_report_links_to_its_heads_and_loads_them_when_opened(chromium: browser.Page, tiny_run: Path) -> None:
+def test_a_report_links_to_its_heads_and_loads_them_when_opened(
+    chromium: browser.Page, tiny_run: Path, tmp_path: Path
+) -> None:
     report = tiny_run / "report"
+    unshade("site", tiny_run, "-o", tmp_path / "site")
+    captures = json.loads((tmp_path / "site" / "leaderboard.json").read_text())["captures"]
+    heads = [tmp_path / "site" / link for link in captures["head"]]
+    assert heads and all(head.is_file() for head in heads)
     chromium.requested.clear()
+    chromium.faults.clear()
     chromium.open(report / "index.html", 1200)
     link = chromium.run("document.querySelector('.case a[href^=\"heads/\"]').getAttribute('href')")
     assert not any("heads/" in url for url in chromium.requested)
     chromium.open(report / link, 800, 480)
     chromium.run("unshadeView.ready")
     assert chromium.run("unshadeView.scene.panes.map(({ title }) => title).length") == 3
+    assert chromium.faults == [] and all(url.startswith(("file:", "data:", "blob:")) for url in chromium.requested)
 
 
 def test_a_notebook_shows_the_page_itself(chromium: browser.Page, tiny_run: Path, tmp_path: Path) -> None:

@@ -66,13 +66,6 @@ impl Export {
         Self { keys, rows, headings, shown }
     }
 
-    /// A table of text as it is shown.
-    pub fn of_text(headings: Vec<String>, shown: Vec<Vec<String>>) -> Self {
-        let text = |row: &Vec<String>| row.iter().map(|cell| Value::from(cell.as_str())).collect();
-        let rows = shown.iter().map(text).collect();
-        Self { keys: headings.clone(), rows, headings, shown }
-    }
-
     /// Writes `<folder>/<name>.csv`, `.json` and `.tex` below `root`.
     pub fn write(&self, root: &Path, folder: &str, name: &str) -> Result<Links, ReportError> {
         let save = |end: &str, text: String| {

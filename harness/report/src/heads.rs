@@ -20,6 +20,11 @@ pub(super) struct Head {
     reason: Option<String>,
 }
 
+/// The page of the case with this [file name](super::comparison_figures::file_name), below the report's folder.
+pub(super) fn page_of(anchor: &str) -> String {
+    format!("{FOLDER}/{anchor}/index.html")
+}
+
 /// Writes the viewer for the pages of [`Head::write`] below the report's folder.
 pub(super) fn write_viewer(root: &Path) -> Result<(), ReportError> {
     let folder = root.join(FOLDER);
@@ -48,7 +53,7 @@ impl Head {
         let shown: Vec<MethodMaps> = with_albedo.take(MOST_METHODS).collect();
         fs::create_dir_all(&folder).map_err(|error| ReportError::write(&folder, error))?;
         match view::write_head(capture, &shown, &case.id, &folder, "../") {
-            Ok(()) => Ok(Self { page: Some(format!("{below}/index.html")), reason: None }),
+            Ok(()) => Ok(Self { page: Some(page_of(anchor)), reason: None }),
             Err(error @ view::ViewError::Write { .. }) => Err(error.into()),
             Err(error) => {
                 fs::remove_dir_all(&folder).map_err(|error| ReportError::write(&folder, error))?;

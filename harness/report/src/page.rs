@@ -9,6 +9,7 @@ use minijinja::{Environment, UndefinedBehavior};
 use scoring::metrics::{METRICS, Metric};
 use scoring::score::{Protocol, Row, Scores};
 use serde::Serialize;
+use serde_json::json;
 
 use super::case::CaseView;
 use super::error::ReportError;
@@ -19,7 +20,7 @@ use super::matrix::{self, Matrix};
 use super::reference::Reference;
 use super::run::{self, Case, Method, RunFile, SolverTiming, Timing};
 use super::solve::plain;
-use super::summary::Summary;
+use super::summary::{Heading, Summary};
 use super::table::Column;
 use super::tone;
 
@@ -191,16 +192,33 @@ pub(super) fn read_scores(run: &Path, case: &Case) -> Result<Vec<Option<Scores>>
     case.methods.iter().map(read).collect()
 }
 
-/// The key figures as files.
+/// The key figures as files: numbers in CSV and JSON, as they are shown in LaTeX.
 fn exported(summary: &Summary) -> Export {
-    let headings = ["case", "method"].into_iter();
-    let headings = headings.chain(summary.headings.iter().map(|heading| heading.name));
-    let rows = summary.cases.iter().flat_map(|case| {
-        case.rows.iter().map(|row| {
-            [&case.id, &row.title].into_iter().chain(&row.cells).cloned().collect::<Vec<_>>()
-        })
-    });
-    Export::of_text(headings.map(str::to_owned).collect(), rows.collect())
+    let described = ["case", "method"].map(str::to_owned);
+    let columns = |heading: &Heading| heading.columns.iter();
+    let names = summary
+        .headings
+        .iter()
+        .flat_map(|heading| columns(heading).map(|(part, _)| format!("{}{part}", heading.name)));
+    let shown_names = summary.headings.iter().map(|heading| heading.name.to_owned());
+    let (mut rows, mut shown) = (Vec::new(), Vec::new());
+    for case in &summary.cases {
+        for row in &case.rows {
+            let described = [&case.id, &row.title];
+            let figures =
+                summary.headings.iter().zip(&row.figures).flat_map(|(heading, figure)| {
+                    columns(heading).map(|(_, number)| json!(number(figure)))
+                });
+            rows.push(described.map(|text| json!(text)).into_iter().chain(figures).collect());
+            shown.push(described.into_iter().chain(&row.cells).cloned().collect());
+        }
+    }
+    Export {
+        keys: described.iter().cloned().chain(names).collect(),
+        rows,
+        headings: described.into_iter().chain(shown_names).collect(),
+        shown,
+    }
 }
 
 /// Each protocol once, in the order in which the scores name them.

@@ -24,6 +24,19 @@ pub(super) struct Heading {
     /// All of it on one line, as in files.
     #[serde(skip)]
     pub name: &'static str,
+    /// The columns of a file: what stands behind the name, and which of the numbers.
+    #[serde(skip)]
+    pub columns: &'static [(&'static str, fn(&KeyFigure) -> Option<f64>)],
+}
+
+/// The numbers of a key figure; none of what a method lacks.
+#[derive(Clone, Default)]
+pub(super) struct KeyFigure {
+    /// The least and the largest value over the lights.
+    low: Option<f64>,
+    high: Option<f64>,
+    /// The value of the trivial solution.
+    trivial: Option<f64>,
 }
 
 /// The figures that decide, of one case.
@@ -43,9 +56,13 @@ pub(super) struct SummaryRow {
     /// Likely faults of the maps, in words.
     findings: Vec<String>,
     pub cells: Vec<String>,
+    /// The numbers behind the cells.
+    #[serde(skip)]
+    pub figures: Vec<KeyFigure>,
 }
 
 const DECIBELS: &str = "PSNR, sRGB, dB ↑";
+const ONE: &[(&str, fn(&KeyFigure) -> Option<f64>)] = &[("", |figure| figure.low)];
 
 const KEY_FIGURES: [(Heading, ScoreKey); 5] = [
     (
@@ -53,6 +70,7 @@ const KEY_FIGURES: [(Heading, ScoreKey); 5] = [
             lines: ["diffuse albedo,", "after one factor"],
             metric: DECIBELS,
             name: "diffuse albedo, PSNR of sRGB after one factor, dB",
+            columns: ONE,
         },
         ALBEDO,
     ),
@@ -61,6 +79,7 @@ const KEY_FIGURES: [(Heading, ScoreKey); 5] = [
             lines: ["specular normal,", "mean angle / plain mesh"],
             metric: "degrees ↓",
             name: "specular normal, mean angle / plain mesh, °",
+            columns: &[(", method", |figure| figure.low), (", mesh", |figure| figure.trivial)],
         },
         SPECULAR_NORMAL,
     ),
@@ -69,6 +88,7 @@ const KEY_FIGURES: [(Heading, ScoreKey); 5] = [
             lines: ["withheld view,", "by the method itself"],
             metric: DECIBELS,
             name: "withheld view, PSNR of sRGB, dB",
+            columns: ONE,
         },
         VIEW,
     ),
@@ -77,6 +97,7 @@ const KEY_FIGURES: [(Heading, ScoreKey); 5] = [
             lines: ["maps relit,", "capture's light"],
             metric: DECIBELS,
             name: "relit, capture's light, PSNR of sRGB, dB",
+            columns: ONE,
         },
         RELIT_OWN,
     ),
@@ -85,6 +106,7 @@ const KEY_FIGURES: [(Heading, ScoreKey); 5] = [
             lines: ["maps relit,", "other lights"],
             metric: DECIBELS,
             name: "relit, other lights, PSNR of sRGB, dB",
+            columns: &[(", lowest", |figure| figure.low), (", highest", |figure| figure.high)],
         },
         RELIT_OTHERS,
     ),
@@ -103,22 +125,30 @@ impl Summary {
         let kept: Vec<usize> = (0..KEY_FIGURES.len()).filter(any).collect();
         for row in cases.iter_mut().flat_map(|case| &mut case.rows) {
             row.cells = kept.iter().map(|at| row.cells[*at].clone()).collect();
+            row.figures = kept.iter().map(|at| row.figures[*at].clone()).collect();
         }
         Self { headings: kept.iter().map(|at| KEY_FIGURES[*at].0.clone()).collect(), cases }
     }
 }
 
 fn summary(case: &Case, columns: &[Column], reference: Reference) -> SummaryCase {
-    let rows = columns.iter().map(|column| SummaryRow {
-        title: column.method.title().to_owned(),
-        kind: column.method.role(),
-        findings: column.findings(),
-        cells: match column.method.failed {
-            Some(_) => vec![table::FAILED.to_owned(); KEY_FIGURES.len()],
-            None => {
-                KEY_FIGURES.iter().map(|(_, key)| key_figure(key, column, &case.light)).collect()
-            }
-        },
+    let rows = columns.iter().map(|column| {
+        let failed = column.method.failed.is_some();
+        let figures = KEY_FIGURES.iter().map(|(_, key)| match failed {
+            true => KeyFigure::default(),
+            false => KeyFigure::of(key, column, &case.light),
+        });
+        let figures: Vec<KeyFigure> = figures.collect();
+        SummaryRow {
+            title: column.method.title().to_owned(),
+            kind: column.method.role(),
+            findings: column.findings(),
+            cells: match failed {
+                true => vec![table::FAILED.to_owned(); KEY_FIGURES.len()],
+                false => figures.iter().map(KeyFigure::in_words).collect(),
+            },
+            figures,
+        }
     });
     let scored = columns.iter().filter(|column| column.scores.is_some());
     let photographed = scored.filter(|_| reference == Reference::Photograph);
@@ -147,19 +177,25 @@ fn missing(column: &Column) -> Option<String> {
     }
 }
 
-/// One value (for normals beside that of the plain mesh), or the range over the other lights.
-fn key_figure(key: &ScoreKey, column: &Column, own: &str) -> String {
-    let values: Vec<f64> = key.rows(column, own).iter().filter_map(|row| row.value).collect();
-    let trivial = metric::trivial(key.subject)
-        .and_then(|trivial| column.find(trivial, None, key.metric, key.scale)?.value);
-    let low = values.iter().copied().min_by(f64::total_cmp);
-    let high = values.iter().copied().max_by(f64::total_cmp);
-    match (low, high) {
-        (Some(low), Some(high)) if low < high => format!("{low:.1} … {high:.1}"),
-        (value, _) if trivial.is_some() => {
-            format!("{} / {}", table::shown(value, 2), table::shown(trivial, 2))
+impl KeyFigure {
+    fn of(key: &ScoreKey, column: &Column, own: &str) -> Self {
+        let values: Vec<f64> = key.rows(column, own).iter().filter_map(|row| row.value).collect();
+        let trivial = metric::trivial(key.subject)
+            .and_then(|trivial| column.find(trivial, None, key.metric, key.scale)?.value);
+        let low = values.iter().copied().min_by(f64::total_cmp);
+        let high = values.iter().copied().max_by(f64::total_cmp);
+        Self { low, high, trivial }
+    }
+
+    /// One value (for normals beside that of the plain mesh), or the range over the other lights.
+    fn in_words(&self) -> String {
+        match (self.low, self.high) {
+            (Some(low), Some(high)) if low < high => format!("{low:.1} … {high:.1}"),
+            (value, _) if self.trivial.is_some() => {
+                format!("{} / {}", table::shown(value, 2), table::shown(self.trivial, 2))
+            }
+            (value, _) => table::shown(value, 1),
         }
-        (value, _) => table::shown(value, 1),
     }
 }
 

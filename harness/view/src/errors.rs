@@ -30,7 +30,7 @@ pub(crate) struct Patch {
     measure: &'static str,
     /// Mean error over the patch, in the measure's unit.
     value: f64,
-    /// The mean of the error over the stated deviation; the patch is ranked by it where there is one.
+    /// The mean of the error over the stated deviation.
     over_stated: Option<f64>,
     /// Texture coordinates of the worst texel, u right, v up.
     uv: [f64; 2],
@@ -100,22 +100,20 @@ impl<'a> Compared<'a> {
             .collect()
     }
 
-    /// The ten patches with the largest mean error, of the error over the stated deviation where there is one, the
-    /// worst first; no two touch.
+    /// The ten patches with the largest mean error, the worst first; no two touch.
     pub fn worst(&self, errors: &TexelErrors) -> Vec<Patch> {
         let (width, height) = self.region.size();
         let side = width.div_ceil(PATCHES).max(1);
         let across = width.div_ceil(side);
-        let ranked = errors.over_stated.as_ref().unwrap_or(&errors.values);
         let mut patches = vec![Gathered::default(); across * height.div_ceil(side)];
         for (i, block) in self.region.blocks(side).enumerate() {
             let stated = errors.over_stated.as_ref().map_or(0.0, |over| over[i]);
-            patches[block].add(i, errors.values[i], stated, ranked[i]);
+            patches[block].add(i, errors.values[i], stated);
         }
         let least = side * side / 2;
         let mut order: Vec<usize> =
             (0..patches.len()).filter(|i| patches[*i].count >= least).collect();
-        let rank = |i: &usize| patches[*i].ranked / patches[*i].count as f64;
+        let rank = |i: &usize| patches[*i].sum / patches[*i].count as f64;
         order.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
         let mut kept: Vec<usize> = Vec::new();
         for i in order {
@@ -147,11 +145,15 @@ impl<'a> Compared<'a> {
 impl TexelErrors {
     /// The value below which 98 % of the errors lie.
     pub fn top(&self) -> f64 {
-        let mut sorted = self.values.clone();
-        sorted.sort_by(f64::total_cmp);
-        let last = sorted.len().saturating_sub(1);
-        sorted.get((SHARE * last as f64).round() as usize).copied().unwrap_or(0.0)
+        top(self.values.clone())
     }
+}
+
+/// The value below which 98 % of the values lie.
+pub(crate) fn top(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let last = values.len().saturating_sub(1);
+    values.get((SHARE * last as f64).round() as usize).copied().unwrap_or(0.0)
 }
 
 #[derive(Clone, Default)]
@@ -159,20 +161,18 @@ struct Gathered {
     count: usize,
     sum: f64,
     over: f64,
-    ranked: f64,
     /// Place in the region of the texel with the largest value, and the value.
     worst: (usize, f64),
 }
 
 impl Gathered {
-    fn add(&mut self, i: usize, value: f64, over: f64, ranked: f64) {
-        if self.count == 0 || ranked > self.worst.1 {
-            self.worst = (i, ranked);
+    fn add(&mut self, i: usize, value: f64, over: f64) {
+        if self.count == 0 || value > self.worst.1 {
+            self.worst = (i, value);
         }
         self.count += 1;
         self.sum += value;
         self.over += over;
-        self.ranked += ranked;
     }
 }
 

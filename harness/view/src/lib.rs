@@ -48,7 +48,7 @@ struct Scene {
     label_names: BTreeMap<u8, String>,
     labels: Option<Stored>,
     /// For each measure the value where the colours of its errors end.
-    tops: BTreeMap<&'static str, f64>,
+    tops: BTreeMap<String, f64>,
 }
 
 /// Writes the page of a capture and maps of methods to the folder `out`, replacing an earlier page; returns the page.
@@ -103,15 +103,20 @@ pub fn write_head(
         Compared::new(truth, labels.as_ref()).map_err(reason)
     });
     let compared = compared.transpose()?;
-    let mut all_tops: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
+    let mut all_tops: BTreeMap<String, Vec<f64>> = BTreeMap::new();
     for (at, (method, source)) in methods.iter().zip(&sources).enumerate() {
         let mut pane = Pane::write(source, &format!("method{at}"), &method.title, false, folder)?;
         if let Some(compared) = &compared {
             pane.factor = compared.factor(&source.maps);
             for errors in compared.errors(source, pane.factor.unwrap_or(1.0)) {
-                all_tops.entry(errors.measure).or_default().push(errors.top());
+                all_tops.entry(errors.measure.to_owned()).or_default().push(errors.top());
                 pane.worst.extend(compared.worst(&errors));
             }
+        }
+        for (map, stated) in &source.deviations {
+            // Green stands for a colour.
+            let top = sources::top_of(stated, stated.channels / 2);
+            all_tops.entry(format!("{map}_std")).or_default().push(top);
         }
         panes.push(pane);
     }

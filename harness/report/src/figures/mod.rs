@@ -61,6 +61,7 @@ fn fill(request: &FigureRequest, sources: &Sources, root: &Path) -> Result<(), R
         FigureKind::Detail => detail::draw(sources, &mut drawing),
         FigureKind::Observability => observability::draw(sources, &mut drawing),
     }?;
+    drawing.caption.push_str(&sources.interrupted()?);
     write_file(&root.join("figure.csv"), drawing.csv())?;
     write_file(&root.join("figure.tex"), drawing.latex(&request.command))?;
     write_file(&root.join("figure.json"), drawing.json()?)

@@ -9,7 +9,8 @@ use super::request::FigureRequest;
 use crate::error::ReportError;
 use crate::page::{columns, read_scores};
 use crate::reference::Reference;
-use crate::run::{Case, Class, Frames, Kind, RunFile};
+use crate::run::{Case, Class, Frames, Kind, RunFile, read_json_if_present};
+use crate::solve::interrupted;
 use crate::table::Column;
 
 /// Cases of all runs, and which methods the figure is of.
@@ -85,6 +86,24 @@ impl Sources {
     /// Returns whether a figure of all methods shows this column.
     pub fn lists(&self, column: &Column) -> bool {
         self.methods.is_empty() || self.is_named(column)
+    }
+
+    /// A sentence that names the interrupted solves among those that the figure shows; empty without one.
+    pub fn interrupted(&self) -> Result<String, ReportError> {
+        let mut cut = Vec::new();
+        for case in self.cases() {
+            for column in case.columns.iter().filter(|column| self.shows(column)) {
+                let Some(maps) = &column.method.maps else { continue };
+                let record = read_json_if_present(&case.run.join(maps).join("solve.json"))?;
+                if record.as_ref().and_then(interrupted).is_some() {
+                    cut.push(format!("{} on {}", column.method.title(), case.case.id));
+                }
+            }
+        }
+        Ok(match cut.is_empty() {
+            true => String::new(),
+            false => format!(" Interrupted solves, with their maps so far: {}.", cut.join(", ")),
+        })
     }
 
     fn is_named(&self, column: &Column) -> bool {

@@ -102,6 +102,25 @@ fn missing_data_is_an_error_of_one_line_and_leaves_the_earlier_figure() {
 }
 
 #[test]
+fn a_caption_names_interrupted_solves_of_the_methods_that_are_shown() {
+    let (folder, run) = sample();
+    let out = folder.path().join("figure");
+    let path = run.join("maps/demo-flash/unshade/solve.json");
+    let text = fs::read_to_string(&path).unwrap();
+    let caption = |request: &FigureRequest| {
+        write(request, &out).unwrap();
+        fs::read_to_string(out.join("figure.tex")).unwrap()
+    };
+    assert!(!caption(&request(&run, FigureKind::Emily)).contains("Interrupted"));
+    fs::write(&path, text.replacen('{', "{\"interrupted\": \"albedo\",", 1)).unwrap();
+    let said = caption(&request(&run, FigureKind::Emily));
+    assert!(said.contains("Interrupted solves") && said.contains("on demo-flash"), "{said}");
+    let others =
+        FigureRequest { methods: vec!["oracle".into()], ..request(&run, FigureKind::Emily) };
+    assert!(!caption(&others).contains("Interrupted"));
+}
+
+#[test]
 fn figures_of_photographs_show_photographs_and_name_no_truth() {
     let (folder, run) = sample();
     sample_run::photograph(&run, "demo");

@@ -1,4 +1,4 @@
-//! The tables of means as lines for a terminal: a row for each figure, a column for each method.
+//! The tables of means as lines for a terminal: a row for each figure, a column for each method; and what failed.
 
 use super::finished::Finished;
 use super::tables::{MeansTable, groups, means};
@@ -19,6 +19,14 @@ pub(super) fn lines(runs: &[Finished]) -> Vec<String> {
         }
     }
     lines.pop();
+    for run in runs {
+        for case in &run.manifest.cases {
+            lines.extend(case.methods.iter().filter_map(|method| {
+                let reason = method.failed.as_ref()?;
+                Some(format!("{} failed on {}: {reason}", method.title(), case.id))
+            }));
+        }
+    }
     lines
 }
 

@@ -1,6 +1,6 @@
 //! The leaderboard's data: compact for the page, and as a table for others.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use scoring::tables::{csv_line, csv_number};
 use serde_json::{Value, json};
@@ -29,8 +29,8 @@ pub(super) fn data(board: &Board, out: &Path) -> Value {
     let column = |of: &dyn Fn(&super::gather::Capture) -> Value| -> Vec<Value> {
         board.captures.iter().map(of).collect()
     };
-    let picture = |capture: &super::gather::Capture| {
-        let place = capture.picture.as_ref().map(|(run, path)| board.runs[*run].folder.join(path));
+    let linked = |place: &Option<(usize, PathBuf)>| {
+        let place = place.as_ref().map(|(run, path)| board.runs[*run].folder.join(path));
         json!(place.map(|place| link(&place, out)))
     };
     let entries: Vec<Value> = board
@@ -59,7 +59,8 @@ pub(super) fn data(board: &Board, out: &Path) -> Value {
         "captures": {
             "case": column(&|c| json!(c.case)), "face": column(&|c| json!(c.face)),
             "light": column(&|c| json!(c.light)), "variant": column(&|c| json!(c.variant)),
-            "hash": column(&|c| json!(c.hash.chars().take(12).collect::<String>())), "picture": column(&picture),
+            "hash": column(&|c| json!(c.hash.chars().take(12).collect::<String>())), "picture": column(&|c| linked(&c.picture)),
+            "head": column(&|c| linked(&c.head)),
         },
     })
 }

@@ -8,7 +8,9 @@ use rayon::prelude::*;
 use scoring::score::{FOUND_LIGHT, Inputs, Scores};
 
 use super::figures::FIGURES;
+use crate::comparison_figures::file_name;
 use crate::error::ReportError;
+use crate::heads;
 use crate::run::{Case, Class, Kind, Method, RunFile};
 use crate::table::Column;
 
@@ -25,6 +27,8 @@ pub(super) struct Capture {
     pub variant: String,
     /// A picture of it, below the folder of a run, and which run.
     pub picture: Option<(usize, PathBuf)>,
+    /// The page of its head, likewise.
+    pub head: Option<(usize, PathBuf)>,
 }
 
 /// A method as one of the runs has it.
@@ -227,6 +231,7 @@ fn capture(folder: &Path, run: usize, scored: &Scored) -> Capture {
     let own = format!("relit-{}-", case.light);
     let chosen = names.iter().find(|name| name.starts_with(&own));
     let chosen = chosen.or_else(|| names.iter().find(|name| name.starts_with("view-")));
+    let head = Path::new("report").join(heads::page_of(&file_name(&case.id)));
     Capture {
         hash: scored.inputs.capture.clone(),
         case: case.id.clone(),
@@ -237,6 +242,7 @@ fn capture(folder: &Path, run: usize, scored: &Scored) -> Capture {
         },
         variant: case.variant.clone().unwrap_or_default(),
         picture: chosen.map(|name| (run, pictures.join(name))),
+        head: folder.join(&head).is_file().then_some((run, head)),
     }
 }
 

@@ -145,6 +145,7 @@ function drawCases(list) {
     if (captures.picture[i]) picture.append(element("img", "", { src: captures.picture[i], alt: "", loading: "lazy", width: 48, height: 48 }));
     const name = element("th", captures.case[i], { scope: "row" });
     name.append(element("small", captures.hash[i], { className: "hash" }));
+    if (captures.head[i]) name.append(element("a", "head in 3D", { href: captures.head[i] }));
     row.append(picture, name);
     const first = best(i);
     entries.forEach((entry) => {

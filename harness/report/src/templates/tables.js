@@ -5,7 +5,7 @@
     // An interval stands behind the number, as an element of its own.
     const text = (row.cells[column].firstChild?.textContent ?? "").trim() || row.cells[column].textContent.trim();
     const number = parseFloat(text.replace("\u2212", "-"));
-    return /^[-\u2212]?[\d.]/.test(text) ? number : text === "\u2013" ? NaN : text;
+    return /^[-\u2212]?[\d.]/.test(text) ? number : ["\u2013", "failed", ""].includes(text) ? NaN : text;
   };
   // What has no value comes last, whichever way the others go.
   const compare = (a, b, sign) => {

@@ -2,7 +2,7 @@
 // The answer at the top of a spot's story: which method is worse there, what explains it, and which view shows it.
 (() => {
   const view = window.unshadeView;
-  const SHADED = 0.25, INDIRECT = 0.2, GLOSSY = 0.3, DARK = 0.8, BRIGHT = 1.25;
+  const SHADED = 0.25, INDIRECT = 0.2, GLOSSY = 0.3, DARK = 0.8, BRIGHT = 1.25, TELLING = 0.05;
 
   const total = ({ diffuse, specular }) => view.luminance(diffuse) + view.luminance(specular);
   const percent = (share) => (share < 0.095 ? (100 * share).toPrecision(1) : Math.round(100 * share)) + " %";
@@ -22,16 +22,18 @@
     return { each, ratio, error: view.ciede2000(view.lab(albedo), view.lab(exact)) };
   }).sort((a, b) => b.error - a.error);
 
-  // The view in which a method's prediction is farthest from the reference.
-  const clearest = (gaps) => gaps.reduce((best, gap, i) => Math.abs(gap) > Math.abs(gaps[best]) ? i : best, 0);
+  // The view in which a method's prediction is farthest from the reference; one that sees the spot at a slant shows it
+  // smaller.
+  const clearest = (gaps, cosines) => gaps.reduce((best, gap, i) =>
+    Math.abs(gap) * cosines[i] > Math.abs(gaps[best]) * cosines[best] ? i : best, 0);
 
   /// The sentences, as plain text, and the index of the observation that shows the error best (null without one).
   /// `irradiance`: that of the direct light, as a share of the largest on the face's front; null without a light.
   view.answer = ({ panes, truth, factors, observations, predicted, views, irradiance }) => {
     const found = [], worst = truth && ranked(panes, truth, factors);
     if (worst?.length) {
-      const each = worst.map(({ each: { pane }, ratio, error }) => `${pane.title} ΔE₀₀ ${error.toFixed(1)} (${ratio.toFixed(2)} times the true luminance)`);
-      found.push((worst.length > 1 ? "Diffuse albedo, worst first: " : "Diffuse albedo: ") + each.join(", ") + ".");
+      const each = worst.map(({ each: { pane }, ratio, error }) => `${pane.title} CIEDE2000 ${error.toFixed(1)} (${ratio.toFixed(2)} times the true luminance)`);
+      found.push((worst.length > 1 ? "Diffuse albedo of this texel after one factor, worst first: " : "Diffuse albedo of this texel after one factor: ") + each.join(", ") + ".");
     }
     const cosines = observations.map(({ cosine }) => cosine);
     found.push(cosines.length ? `${cosines.length} of ${views} training views see it, the most frontal at ${degrees(Math.max(...cosines))}.`
@@ -55,7 +57,12 @@
     const gapsOf = ({ parts }) => parts.map((part, i) => total(part) - (exact ? total(exact.parts[i]) : observed[i]));
     const size = (one) => Math.max(...gapsOf(one).map(Math.abs));
     const shown = methods.find(({ pane }) => pane === first?.each.pane) ?? methods.reduce((a, b) => size(b) > size(a) ? b : a);
-    const i = clearest(gapsOf(shown)), value = (x) => x.toPrecision(2);
+    const gaps = gapsOf(shown), i = clearest(gaps, cosines), value = (x) => x.toPrecision(2);
+    if (Math.abs(gaps[i]) < TELLING * Math.max(...observed)) {
+      const frontal = cosines.indexOf(Math.max(...cosines));
+      found.push(`Direct light does not show it in any view: predictions differ by at most ${value(Math.abs(gaps[i]))}, and ${value(Math.max(...observed))} is observed. View ${observations[frontal].camera.name} is the most frontal.`);
+      return { found, clearest: frontal };
+    }
     found.push(`View ${observations[i].camera.name} shows it best: ${shown.pane.title} predicts ${value(total(shown.parts[i]))}, `
       + (exact ? `the truth ${value(total(exact.parts[i]))}, ` : "") + `observed ${value(observed[i])}.`);
     return { found, clearest: i };

@@ -10,6 +10,7 @@
     { id: "specular_normal", title: "specular normal", mode: "normal" },
     { id: "roughness", title: "roughness, lobe 1", mode: "quantity", top: 0.5, unit: "GGX alpha" },
     { id: "roughness", key: "roughness-2", title: "roughness, lobe 2", mode: "quantity", top: 0.5, unit: "GGX alpha", channel: 1 },
+    { id: "roughness", key: "roughness-weight", title: "share of lobe 1", mode: "quantity", top: 1, unit: "0 to 1", channel: 2 },
     { id: "confidence", title: "confidence", mode: "quantity", top: 1, unit: "0 to 1" },
     { id: "diffuse_albedo_std", title: "stated deviation, diffuse albedo", mode: "quantity", channel: 1, unit: "reflectance" },
     { id: "specular_albedo_std", title: "stated deviation, specular albedo", mode: "quantity", unit: "reflectance" },
@@ -30,7 +31,8 @@
     const rendered = ["shaded", "diffuse", "specular"].map((id) => ({
       key: id, id, mode: id, group: "light", title: { shaded: "shaded", diffuse: "diffuse part", specular: "specular part" }[id],
     }));
-    const shown = MAPS.filter(({ id }) => maps(id)).map((layer) => ({ key: layer.key ?? layer.id, group: "maps", ...layer }));
+    const shown = MAPS.filter(({ id }) => maps(id))
+      .map((layer) => ({ key: layer.key ?? layer.id, group: "maps", top: scene.tops[layer.id], ...layer }));
     if (scene.labels) shown.push({ key: "labels", id: "labels", group: "maps", title: "labels", mode: "label" });
     shown.push({
       key: "views", id: "views", group: "maps", title: "views that see a texel", mode: "views", unit: "training views",

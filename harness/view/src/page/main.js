@@ -48,8 +48,9 @@
   const start = async (scene) => {
     const head = await view.loadHead(scene.mesh), stage = new view.Stage(part("canvas"), scene, head);
     const layers = view.layersOf(scene), lights = lightsOf(scene), element = part("stage");
+    const front = { camera: [0, 0, head.radius / Math.sin(12.5 * DEGREES) * 1.06, ...head.centre.toArray()], lens: 25 };
     const state = {
-      camera: [0, 0, head.radius / Math.sin(12.5 * DEGREES) * 1.06, ...head.centre.toArray()], lens: 25,
+      camera: [...front.camera], lens: front.lens,
       light: lights.length > 3 ? lights[2].id : "lamp", lamp: { azimuth: 35, elevation: 30, distance: 1 }, turn: 0,
       layer: "shaded", exposure: 0, factor: true, shown: scene.panes.map(({ id }) => id), swipe: null, spot: null,
     };
@@ -155,6 +156,8 @@
       }
     };
 
+    const isNarrow = () => window.innerWidth <= 760;
+
     const tell = async (scroll) => {
       if (!place) return;
       const truth = scene.panes.find((pane) => pane.is_truth && pane.light) ?? scene.panes.find((pane) => pane.light);
@@ -163,9 +166,14 @@
       const model = light && view.surroundings(head, light.picture, 0, false);
       view.told = await view.tell(part("story"), {
         scene, head, place, exposure: 2 ** state.exposure, light: light ? { title: light.title, model } : null,
-        jump: (camera) => { jump(camera); refresh(); },
+        jump: (camera) => {
+          jump(camera);
+          refresh();
+          if (isNarrow()) part("stage").scrollIntoView({ behavior: "smooth" });
+        },
       });
-      if (scroll && window.innerWidth <= 760) part("story").scrollIntoView({ behavior: "smooth" });
+      if (!isNarrow()) part("story").closest("aside").scrollTop = part("story").parentElement.offsetTop;
+      else if (scroll) part("story").scrollIntoView({ behavior: "smooth" });
     };
 
     // Looks at the head as a training view does, but for the place of its principal point.
@@ -183,6 +191,7 @@
       place = view.placeAt(head, ...uv);
       if (!place) return;
       state.spot = uv;
+      worst();
       redraw();
       tell(scroll).catch((error) => say(error.message));
     };
@@ -211,7 +220,7 @@
       refresh();
     };
 
-    const worst = () => view.listWorst({ section: part("worst"), choice: part("worst-of"), list: part("patches") }, scene, head, layerNow(), (uv, errors) => {
+    const worst = () => view.listWorst({ section: part("worst"), choice: part("worst-of"), list: part("patches") }, scene, head, layerNow(), state.spot, (uv, errors) => {
       state.layer = errors.key;
       show();
       face(uv);
@@ -276,6 +285,11 @@
     wire("distance", "input", ({ value }) => {
       state.lamp.distance = Number(value);
       if (lightNow().read || state.light === "flash") state.light = "lamp";
+    });
+    part("front").addEventListener("click", () => {
+      Object.assign(state, { camera: [...front.camera], lens: front.lens });
+      placeCamera();
+      refresh();
     });
     part("copy").addEventListener("click", async () => {
       try {

@@ -4,6 +4,15 @@
   const view = window.unshadeView;
   const CROP = 48;
   const MARKS = ["●", "▲", "■", "◆"];
+  // The left edge of the plot.
+  const LEFT = 50;
+  /// The same marks as paths around a point.
+  const SHAPES = [
+    (x, y) => `M${x - 3} ${y}a3 3 0 1 0 6 0a3 3 0 1 0 -6 0z`,
+    (x, y) => `M${x - 3.5} ${y + 3}h7l-3.5 -6.5z`,
+    (x, y) => `M${x - 3} ${y - 3}h6v6h-6z`,
+    (x, y) => `M${x - 4} ${y}l4 -4l4 4l-4 4z`,
+  ];
   const INKS = ["#e6e8eb", "#e69f00", "#56b4e9", "#cc79a7"];
 
   const escaped = (text) => String(text).replace(/[&<>"]/g, (letter) => "&#" + letter.charCodeAt(0) + ";");
@@ -98,13 +107,13 @@
   const plot = (observations, predicted) => {
     const [width, height, low] = [340, 170, 26], all = observations.map(({ radiance }) => view.luminance(radiance));
     const sums = predicted.flatMap(({ parts }) => parts.map(({ diffuse, specular }) => view.luminance(diffuse) + view.luminance(specular)));
-    const top = 1.08 * Math.max(1e-6, ...all, ...sums), across = (degrees_) => 36 + (width - 48) * degrees_ / 90;
+    const top = 1.08 * Math.max(1e-6, ...all, ...sums), across = (degrees_) => LEFT + (width - LEFT - 12) * degrees_ / 90;
     const up = (value) => height - low - (height - low - 10) * value / top, lines = [];
     for (const tick of [0, 30, 60, 90]) lines.push(`<text x="${across(tick)}" y="${height - 8}" class="tick">${tick}°</text>`);
     for (const tick of [0, 0.5, 1]) {
       const value = tick * top / 1.08;
-      lines.push(`<line x1="36" x2="${width - 12}" y1="${up(value)}" y2="${up(value)}" class="grid"/>`,
-        `<text x="32" y="${up(value) + 4}" class="tick end">${value.toPrecision(2)}</text>`);
+      lines.push(`<line x1="${LEFT}" x2="${width - 12}" y1="${up(value)}" y2="${up(value)}" class="grid"/>`,
+        `<text x="${LEFT - 4}" y="${up(value) + 4}" class="tick end">${value.toPrecision(2)}</text>`);
     }
     observations.forEach(({ cosine, camera }, i) => {
       const x = across(Math.acos(Math.min(1, cosine)) * 180 / Math.PI);
@@ -113,8 +122,8 @@
         const d = view.luminance(parts[i].diffuse), s = d + view.luminance(parts[i].specular), at = x + 4 * (k - (predicted.length - 1) / 2);
         const title = `<title>view ${escaped(camera.name)}, ${escaped(pane.title)}: diffuse ${d.toPrecision(3)}, with specular ${s.toPrecision(3)}</title>`;
         lines.push(`<line x1="${at}" x2="${at}" y1="${up(d)}" y2="${up(s)}" stroke="${ink}"/>`,
-          `<circle cx="${at}" cy="${up(d)}" r="3" fill="none" stroke="${ink}">${title}</circle>`,
-          `<circle cx="${at}" cy="${up(s)}" r="3" fill="${ink}">${title}</circle>`);
+          `<path d="${SHAPES[k](at, up(d))}" fill="none" stroke="${ink}">${title}</path>`,
+          `<path d="${SHAPES[k](at, up(s))}" fill="${ink}">${title}</path>`);
       });
     });
     return `<svg viewBox="0 0 ${width} ${height}" role="img" aria-label="luminance against the angle between view and normal">${lines.join("")}</svg>`;
@@ -128,9 +137,9 @@
     const rows = [], known = (name) => panes.some(({ values }) => values[name]);
     const each = (name, write) => panes.map((pane) => pane.values[name] ? write(pane.values[name], pane) : "–");
     const stated = (pane, name) => pane.values[name + "_std"] ? " ± " + pane.values[name + "_std"].map((x) => x.toPrecision(2)).join(" ") : "";
-    rows.push(row("diffuse albedo", each("diffuse_albedo", (rgb, pane) => listed(rgb, 4) + stated(pane, "diffuse_albedo"))));
+    rows.push(row("diffuse albedo, before the factor", each("diffuse_albedo", (rgb, pane) => listed(rgb, 4) + stated(pane, "diffuse_albedo"))));
     if (truth) {
-      rows.push(row("ΔE₀₀, after the factor", panes.map((pane) => pane === truth ? "" : view.ciede2000(
+      rows.push(row("CIEDE2000, after the factor", panes.map((pane) => pane === truth ? "" : view.ciede2000(
         view.lab(pane.values.diffuse_albedo.map((x) => x * factors.get(pane.pane.id))), view.lab(truth.values.diffuse_albedo)).toFixed(2))));
     }
     if (known("specular_albedo")) rows.push(row("specular albedo", each("specular_albedo", ([x], pane) => x.toFixed(5) + stated(pane, "specular_albedo"))));
