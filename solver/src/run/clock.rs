@@ -61,15 +61,6 @@ impl Clock {
         Self { parts, at: 0, done: 0, own: 0, expected: 0.0, start: now, first: now }
     }
 
-    /// Plans the stage before this one again, so many times; returns its steps.
-    pub fn repeat(&mut self, times: usize) -> usize {
-        let Some(last) = self.at.checked_sub(1).and_then(|at| self.parts.get(at)).copied() else {
-            return 0;
-        };
-        self.parts.splice(self.at..self.at, std::iter::repeat_n(last, times));
-        last.steps
-    }
-
     /// Skips a stage whose value is stored.
     pub fn skip(&mut self) {
         self.at += 1;
@@ -141,17 +132,6 @@ mod tests {
             }
             clock.next();
         }
-    }
-
-    #[test]
-    fn a_repeated_stage_is_planned_where_it_takes_place() {
-        let part = |step, steps| Work { preparation: 0.0, step, steps };
-        let mut clock = Clock::new(vec![part(0.5, 2), part(2.0, 3), part(1.0, 1)]);
-        assert_eq!(clock.repeat(2), 0);
-        (clock.next(), clock.skip());
-        assert_eq!(clock.repeat(2), 3);
-        let planned: Vec<usize> = clock.parts.iter().map(|part| part.steps).collect();
-        assert_eq!((planned, clock.part().steps), (vec![2, 3, 3, 3, 1], 3));
     }
 
     #[test]

@@ -108,11 +108,6 @@ impl<'a, 'b> Run<'a, 'b> {
         })
     }
 
-    /// Plans the last stage again, so many times.
-    pub fn repeat(&mut self, times: usize) {
-        self.total += times * self.clock.repeat(times);
-    }
-
     /// Whether the caller has interrupted the solve. After that no fit takes steps.
     pub fn is_interrupted(&self) -> bool {
         self.cut.is_some()

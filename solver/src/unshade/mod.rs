@@ -32,7 +32,6 @@ use capture::Capture;
 
 use self::albedo::{FullPictures, fit_albedo};
 use self::assemble::{Estimates, assemble};
-use self::explicit::exp;
 use self::illuminations::Illuminations;
 use self::known::Known;
 use self::light::{JointEstimate, LightEstimate, fit_joint, fit_light};
@@ -52,11 +51,9 @@ use crate::semantic::regions::FaceRegions;
 use crate::solution::Results;
 use crate::transport::{Sky, Transport};
 
-/// Further rounds of the joint fit under lights that tell shading from albedo. Each begins from the distance that the
+/// Further rounds of the joint fit under lights that change from frame to frame. Each begins from the distance that the
 /// one before has found.
-const FURTHER_JOINT_ROUNDS: usize = 6;
-/// Least contrast of the light of a single lamp. A flash has 1.6 to 1.7, a studio of softboxes 1.1.
-const CONTRAST_OF_LAMP: f32 = 1.4;
+const CHANGING_LIGHT_ROUNDS: usize = 6;
 
 /// Recovers maps from a capture.
 pub(crate) fn solve(
@@ -127,13 +124,9 @@ pub(crate) fn solve(
     let mut joint = run.stage_from("joint", grey, |run, name, grey| {
         fit_joint(run, name, config, &near, &data, grey, false)
     })?;
-    let is_changing = capture.lights.beyond_one_still_light().is_some();
-    if is_changing || illuminations.contrast(rows, &exp(&joint.log_light)) > CONTRAST_OF_LAMP {
-        if !is_changing {
-            run.repeat(FURTHER_JOINT_ROUNDS);
-        }
+    if capture.lights.beyond_one_still_light().is_some() {
         drop(near);
-        for round in 1..=FURTHER_JOINT_ROUNDS {
+        for round in 1..=CHANGING_LIGHT_ROUNDS {
             joint = run.stage_from(&format!("joint {round}"), joint, |run, name, joint| {
                 let near = transport(joint.nearness_per_metre, Transport::with_nearness);
                 fit_joint(run, name, config, &near, &data, joint, false)
@@ -213,7 +206,7 @@ pub(crate) fn plan(config: &UnshadeConfig, extent: &Extent) -> Vec<Work> {
         .collect();
     plan.push(light(rays, config.joint.grey_steps));
     plan.push(light(0.0, config.joint.steps));
-    let rounds = if has_changing_light { FURTHER_JOINT_ROUNDS } else { 0 };
+    let rounds = if has_changing_light { CHANGING_LIGHT_ROUNDS } else { 0 };
     plan.extend((0..rounds).map(|_| light(rays, config.joint.steps)));
     plan.push(work(25.0, 15.0, heights, relief::steps(&config.relief, size, views)));
     plan.push(work(6.0, 6.0, size as f64, config.albedo.steps));

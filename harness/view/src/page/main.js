@@ -157,7 +157,6 @@
     };
 
     const isNarrow = () => window.innerWidth <= 760;
-
     const tell = async (scroll) => {
       if (!place) return;
       const truth = scene.panes.find((pane) => pane.is_truth && pane.light) ?? scene.panes.find((pane) => pane.light);
@@ -172,7 +171,8 @@
           if (isNarrow()) part("stage").scrollIntoView({ behavior: "smooth" });
         },
       });
-      if (!isNarrow()) part("story").closest("aside").scrollTop = part("story").parentElement.offsetTop;
+      const section = part("story").parentElement, aside = section.parentElement;
+      if (!isNarrow()) aside.scrollTop += section.getBoundingClientRect().top - aside.getBoundingClientRect().top;
       else if (scroll) part("story").scrollIntoView({ behavior: "smooth" });
     };
 
