@@ -26,8 +26,11 @@ pub(super) struct Heading {
     pub name: &'static str,
     /// The columns of a file: what stands behind the name, and which of the numbers.
     #[serde(skip)]
-    pub columns: &'static [(&'static str, fn(&KeyFigure) -> Option<f64>)],
+    pub columns: &'static [Number],
 }
+
+/// A number of a key figure, by the end of its name.
+type Number = (&'static str, fn(&KeyFigure) -> Option<f64>);
 
 /// The numbers of a key figure; none of what a method lacks.
 #[derive(Clone, Default)]
@@ -62,7 +65,7 @@ pub(super) struct SummaryRow {
 }
 
 const DECIBELS: &str = "PSNR, sRGB, dB ↑";
-const ONE: &[(&str, fn(&KeyFigure) -> Option<f64>)] = &[("", |figure| figure.low)];
+const ONE: &[Number] = &[("", |figure| figure.low)];
 
 const KEY_FIGURES: [(Heading, ScoreKey); 5] = [
     (

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use super::write_results;
+use super::{means_in_lines, write_results};
 use crate::sample_run;
 
 /// The sample run once more, with a second face whose scores all differ by `offset`.
@@ -215,6 +215,22 @@ fn a_face_without_a_score_is_counted_and_a_run_without_any_is_refused() {
     let message = results(root.path(), &["run"]).unwrap_err();
     assert!(message.contains("nothing was scored yet; finish the run"), "{message}");
     assert!(!message.contains('\n'));
+}
+
+#[test]
+fn the_terminal_says_what_failed() {
+    let root = tempfile::tempdir().unwrap();
+    let run = root.path().join("run");
+    two_faces(&run, 1.0);
+    let path = run.join("run.json");
+    let mut manifest = read(&path);
+    assert!(!means_in_lines(&[run.clone()]).unwrap().join("\n").contains("failed"));
+    manifest["cases"][0]["solvers"][0]["failed"] = json!("out of memory");
+    manifest["cases"][0]["solvers"][0]["title"] = json!("mine");
+    save(&path, &manifest);
+    let lines = means_in_lines(&[run]).unwrap();
+    let case = manifest["cases"][0]["id"].as_str().unwrap();
+    assert_eq!(lines.last().unwrap(), &format!("mine failed on {case}: out of memory"));
 }
 
 /// The sample run with a scene at its captures and with its methods called otherwise.
