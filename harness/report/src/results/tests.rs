@@ -224,7 +224,7 @@ fn the_terminal_says_what_failed() {
     two_faces(&run, 1.0);
     let path = run.join("run.json");
     let mut manifest = read(&path);
-    assert!(!means_in_lines(&[run.clone()]).unwrap().join("\n").contains("failed"));
+    assert!(!means_in_lines(std::slice::from_ref(&run)).unwrap().join("\n").contains("failed"));
     manifest["cases"][0]["solvers"][0]["failed"] = json!("out of memory");
     manifest["cases"][0]["solvers"][0]["title"] = json!("mine");
     save(&path, &manifest);
