@@ -43,6 +43,9 @@ def opened(page: browser.Page, report: Path) -> Iterator[browser.Page]:
     assert page.requested and all(url.startswith(("file:", "data:")) for url in page.requested)
 
 
+DASH = "\N{EN DASH}"
+
+
 def numbers(page: browser.Page, column: int) -> list[float]:
     """The first number in each row of the key figures, dashes as NaN."""
     texts = page.run(f"[...document.querySelectorAll('.summary tbody tr')].map(row => row.cells[{column}].textContent)")
@@ -60,12 +63,12 @@ def test_a_click_on_a_heading_sorts_and_dashes_stay_last(opened: browser.Page) -
         assert len(set(found)) > 1
     # What failed has no value either.
     cell = "[...document.querySelectorAll('.summary tbody tr')].find(row => row.cells[4].textContent === '%s').cells[4]"
-    opened.run(f"({cell % '–'}).textContent = 'failed'")
+    opened.run(f"({cell % DASH}).textContent = 'failed'")
     for _ in range(2):
         opened.run(click % 4)
         found = numbers(opened, 4)
         assert np.isfinite(found[0]) and np.isnan(found[-1])
-    opened.run(f"({cell % 'failed'}).textContent = '–'")
+    opened.run(f"({cell % 'failed'}).textContent = '{DASH}'")
     opened.run(click % 4)
     np.testing.assert_array_equal(numbers(opened, 4), before)
 

@@ -193,7 +193,9 @@ def test_the_answer_names_the_worst_method_and_the_view_that_shows_it(head: Head
     }
     said = told["answer"]["found"]
     assert said[0].startswith("Diffuse albedo of this texel after one factor, worst first: ")
-    listed = [(title, said[0].index(title + " CIEDE2000")) for title in sorted(errors, key=errors.__getitem__, reverse=True)]
+    listed = [
+        (title, said[0].index(title + " CIEDE2000")) for title in sorted(errors, key=errors.__getitem__, reverse=True)
+    ]
     assert listed == sorted(listed, key=lambda each: each[1])
     assert all(f"{title} CIEDE2000 {error:.1f}" in said[0] for title, error in errors.items())
     assert said[1].startswith(f"{len(told['cameras'])} of ")
@@ -292,7 +294,9 @@ def test_a_dropped_file_stands_as_the_captures_light_does(
     )
     light.write(str(tmp_path / f"light.{ending}"))
     # Chosen with its listener asleep, then dropped on the page.
-    head.page.run("document.getElementById('file').addEventListener('change', (e) => e.stopImmediatePropagation(), true)")
+    head.page.run(
+        "document.getElementById('file').addEventListener('change', (e) => e.stopImmediatePropagation(), true)"
+    )
     head.page.give_file("#file", tmp_path / f"light.{ending}")
     head.page.run("""(() => {
         const dataTransfer = new DataTransfer();
