@@ -196,10 +196,7 @@ pub(super) fn read_scores(run: &Path, case: &Case) -> Result<Vec<Option<Scores>>
 fn exported(summary: &Summary) -> Export {
     let described = ["case", "method"].map(str::to_owned);
     let columns = |heading: &Heading| heading.columns.iter();
-    let names = summary
-        .headings
-        .iter()
-        .flat_map(|heading| columns(heading).map(|(part, _)| format!("{}{part}", heading.name)));
+    let names = summary.headings.iter().flat_map(columns).map(|(name, _)| (*name).to_owned());
     let shown_names = summary.headings.iter().map(|heading| heading.name.to_owned());
     let (mut rows, mut shown) = (Vec::new(), Vec::new());
     for case in &summary.cases {

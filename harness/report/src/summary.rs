@@ -21,15 +21,15 @@ pub(super) struct Heading {
     /// The compared quantity, on two lines.
     lines: [&'static str; 2],
     metric: &'static str,
-    /// All of it on one line, as in files.
+    /// All of it on one line, as in LaTeX.
     #[serde(skip)]
     pub name: &'static str,
-    /// The columns of a file: what stands behind the name, and which of the numbers.
+    /// The columns of CSV and JSON.
     #[serde(skip)]
     pub columns: &'static [Number],
 }
 
-/// A number of a key figure, by the end of its name.
+/// A number of a key figure, and its name.
 type Number = (&'static str, fn(&KeyFigure) -> Option<f64>);
 
 /// The numbers of a key figure; none of what a method lacks.
@@ -65,7 +65,7 @@ pub(super) struct SummaryRow {
 }
 
 const DECIBELS: &str = "PSNR, sRGB, dB ↑";
-const ONE: &[Number] = &[("", |figure| figure.low)];
+const LOW: fn(&KeyFigure) -> Option<f64> = |figure| figure.low;
 
 const KEY_FIGURES: [(Heading, ScoreKey); 5] = [
     (
@@ -73,7 +73,7 @@ const KEY_FIGURES: [(Heading, ScoreKey); 5] = [
             lines: ["diffuse albedo,", "after one factor"],
             metric: DECIBELS,
             name: "diffuse albedo, PSNR of sRGB after one factor, dB",
-            columns: ONE,
+            columns: &[("diffuse albedo, PSNR of sRGB after one factor, dB", LOW)],
         },
         ALBEDO,
     ),
@@ -82,7 +82,10 @@ const KEY_FIGURES: [(Heading, ScoreKey); 5] = [
             lines: ["specular normal,", "mean angle / plain mesh"],
             metric: "degrees ↓",
             name: "specular normal, mean angle / plain mesh, °",
-            columns: &[(", method", |figure| figure.low), (", mesh", |figure| figure.trivial)],
+            columns: &[
+                ("specular normal, mean angle, °", LOW),
+                ("specular normal of the plain mesh, mean angle, °", |figure| figure.trivial),
+            ],
         },
         SPECULAR_NORMAL,
     ),
@@ -91,7 +94,7 @@ const KEY_FIGURES: [(Heading, ScoreKey); 5] = [
             lines: ["withheld view,", "by the method itself"],
             metric: DECIBELS,
             name: "withheld view, PSNR of sRGB, dB",
-            columns: ONE,
+            columns: &[("withheld view, PSNR of sRGB, dB", LOW)],
         },
         VIEW,
     ),
@@ -100,7 +103,7 @@ const KEY_FIGURES: [(Heading, ScoreKey); 5] = [
             lines: ["maps relit,", "capture's light"],
             metric: DECIBELS,
             name: "relit, capture's light, PSNR of sRGB, dB",
-            columns: ONE,
+            columns: &[("relit, capture's light, PSNR of sRGB, dB", LOW)],
         },
         RELIT_OWN,
     ),
@@ -109,7 +112,10 @@ const KEY_FIGURES: [(Heading, ScoreKey); 5] = [
             lines: ["maps relit,", "other lights"],
             metric: DECIBELS,
             name: "relit, other lights, PSNR of sRGB, dB",
-            columns: &[(", lowest", |figure| figure.low), (", highest", |figure| figure.high)],
+            columns: &[
+                ("relit, other lights, lowest PSNR of sRGB, dB", LOW),
+                ("relit, other lights, highest PSNR of sRGB, dB", |figure| figure.high),
+            ],
         },
         RELIT_OTHERS,
     ),
