@@ -53,7 +53,7 @@ use link::WayToRun;
 pub use metric::subjects;
 use page::Page;
 pub use page::ProgressCallback;
-pub use results::{means_in_lines, write_results};
+pub use results::{failures_in_lines, means_in_lines, write_results};
 use run::RunFile;
 pub use site::{SiteSummary, write_site};
 

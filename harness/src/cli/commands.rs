@@ -107,7 +107,9 @@ pub(super) fn run(
         Verb::Figure(arguments) => figure::figure(&arguments, tools, observer),
         Verb::Table { runs, out } => {
             report::write_results(&runs, &out, &command_line("table", &runs, &[], Some(&out)))?;
-            Ok(Outcome { lines: report::means_in_lines(&runs)?, ..Outcome::default() })
+            let mut lines = report::means_in_lines(&runs)?;
+            lines.extend(report::failures_in_lines(&runs)?);
+            Ok(Outcome { lines, ..Outcome::default() })
         }
         Verb::Compare(arguments) => compare::compare(&arguments, tools, observer),
         Verb::Calibrate(arguments) => calibrate::calibrate(&arguments, tools, observer),

@@ -149,8 +149,14 @@ impl TexelErrors {
     }
 }
 
+/// The value below which 98 % of the positive values of a map's channel lie.
+pub(crate) fn top_of(map: &Picture, channel: usize) -> f64 {
+    let values = map.data.iter().skip(channel).step_by(map.channels);
+    top(values.filter(|value| **value > 0.0).map(|value| f64::from(*value)).collect())
+}
+
 /// The value below which 98 % of the values lie.
-pub(crate) fn top(mut values: Vec<f64>) -> f64 {
+fn top(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     let last = values.len().saturating_sub(1);
     values.get((SHARE * last as f64).round() as usize).copied().unwrap_or(0.0)

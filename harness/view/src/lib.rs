@@ -115,7 +115,7 @@ pub fn write_head(
         }
         for (map, stated) in &source.deviations {
             // Green stands for a colour.
-            let top = sources::top_of(stated, stated.channels / 2);
+            let top = errors::top_of(stated, stated.channels / 2);
             all_tops.entry(format!("{map}_std")).or_default().push(top);
         }
         panes.push(pane);

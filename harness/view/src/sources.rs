@@ -8,7 +8,6 @@ use formats::maps::{MapsError, read_deviation};
 use formats::picture::{self, GrayImage, Picture};
 
 use crate::error::ViewError;
-use crate::errors::top;
 
 /// A folder of maps, and its name in the page.
 #[derive(Clone, Debug)]
@@ -74,12 +73,6 @@ impl Source {
         };
         Some(self.maps.coverage.clone().unwrap_or_else(whole))
     }
-}
-
-/// The value below which 98 % of the positive values of a map's channel lie.
-pub(crate) fn top_of(map: &Picture, channel: usize) -> f64 {
-    let values = map.data.iter().skip(channel).step_by(map.channels);
-    top(values.filter(|value| **value > 0.0).map(|value| f64::from(*value)).collect())
 }
 
 /// The lights, by name, in which the truth is relit beside its own.

@@ -54,6 +54,13 @@ pub fn means_in_lines(runs: &[PathBuf]) -> Result<Vec<String>, ReportError> {
     Ok(terminal::lines(&join::joined(runs)))
 }
 
+/// A line for each method that failed on a case of these runs.
+pub fn failures_in_lines(runs: &[PathBuf]) -> Result<Vec<String>, ReportError> {
+    let runs: Vec<Finished> =
+        runs.iter().map(|run| Finished::read(run)).collect::<Result<_, _>>()?;
+    Ok(terminal::failures(&runs))
+}
+
 fn page(runs: &[Finished], command: &str) -> Result<String, ReportError> {
     let references: Vec<Reference> = runs.iter().flat_map(Finished::references).collect();
     let mut text = format!(

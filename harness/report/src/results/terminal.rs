@@ -1,4 +1,4 @@
-//! The tables of means as lines for a terminal: a row for each figure, a column for each method; and what failed.
+//! The tables of means as lines for a terminal: a row for each figure, a column for each method.
 
 use super::finished::Finished;
 use super::tables::{MeansTable, groups, means};
@@ -19,15 +19,19 @@ pub(super) fn lines(runs: &[Finished]) -> Vec<String> {
         }
     }
     lines.pop();
-    for run in runs {
-        for case in &run.manifest.cases {
-            lines.extend(case.methods.iter().filter_map(|method| {
-                let reason = method.failed.as_ref()?;
-                Some(format!("{} failed on {}: {reason}", method.title(), case.id))
-            }));
-        }
-    }
     lines
+}
+
+/// What failed, and why.
+pub(super) fn failures(runs: &[Finished]) -> Vec<String> {
+    let cases = runs.iter().flat_map(|run| &run.manifest.cases);
+    let failures = cases.flat_map(|case| {
+        case.methods.iter().filter_map(|method| {
+            let reason = method.failed.as_ref()?;
+            Some(format!("{} failed on {}: {reason}", method.title(), case.id))
+        })
+    });
+    failures.collect()
 }
 
 /// The table on its side; the best of a row has a star.
