@@ -61,7 +61,7 @@ def test_a_click_on_a_heading_sorts_and_dashes_stay_last(opened: browser.Page) -
         found = numbers(opened, 2)
         assert found == sorted(found, key=lambda value: order * value)
         assert len(set(found)) > 1
-    # What failed has no value either.
+    # A method that failed has no value either.
     cell = "[...document.querySelectorAll('.summary tbody tr')].find(row => row.cells[4].textContent === '%s').cells[4]"
     opened.run(f"({cell % DASH}).textContent = 'failed'")
     for _ in range(2):

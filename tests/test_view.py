@@ -114,14 +114,11 @@ def test_a_sun_in_surroundings_casts_the_path_tracers_shadows(head: Head, tiny_r
 def test_every_layer_is_shown(head: Head, tiny_run: Path) -> None:
     layers = head.page.run("[...document.getElementById('layer').options].map(({ value }) => value)")
     assert {"shaded", "diffuse", "specular", "diffuse_albedo", "labels", "views", "error-diffuse_albedo"} <= set(layers)
+    draw = "unshadeView.stage.draw(unshadeView.cells(), 1), document.getElementById('canvas').toDataURL()"
     seen = set()
     for layer in layers:
         head.choose("layer", layer)
-        seen.add(
-            head.page.run(
-                "unshadeView.stage.draw(unshadeView.cells(), 1), document.getElementById('canvas').toDataURL()"
-            )
-        )
+        seen.add(head.page.run(draw))
     assert len(seen) == len(layers)
     head.choose("layer", "error-specular_normal")
     assert "degrees" in head.page.run("document.getElementById('scale').textContent")
@@ -193,13 +190,11 @@ def test_the_answer_names_the_worst_method_and_the_view_that_shows_it(head: Head
     }
     said = told["answer"]["found"]
     assert said[0].startswith("Diffuse albedo of this texel after one factor, worst first: ")
-    listed = [
-        (title, said[0].index(title + " CIEDE2000")) for title in sorted(errors, key=errors.__getitem__, reverse=True)
-    ]
-    assert listed == sorted(listed, key=lambda each: each[1])
-    assert all(f"{title} CIEDE2000 {error:.1f}" in said[0] for title, error in errors.items())
+    order = sorted(errors, key=errors.__getitem__, reverse=True)
+    places = [said[0].index(f"{title} CIEDE2000 {errors[title]:.1f}") for title in order]
+    assert places == sorted(places)
     assert said[1].startswith(f"{len(told['cameras'])} of ")
-    sums, worst = dict(told["sums"]), listed[0][0]
+    sums, worst = dict(told["sums"]), order[0]
     gaps = np.abs(np.subtract(sums[worst], sums["truth"])) * told["cosines"]
     assert told["answer"]["clearest"] == gaps.argmax()
     assert f"View {told['cameras'][gaps.argmax()]} shows it best: {worst} predicts" in said[-1]
@@ -295,14 +290,12 @@ def test_a_dropped_file_stands_as_the_captures_light_does(
     light.write(str(tmp_path / f"light.{ending}"))
     # Chosen with its listener asleep, then dropped on the page.
     head.page.run(
-        "document.getElementById('file').addEventListener('change', (e) => e.stopImmediatePropagation(), true)"
+        "document.querySelector('#file').addEventListener('change', (e) => e.stopImmediatePropagation(), true)"
     )
     head.page.give_file("#file", tmp_path / f"light.{ending}")
-    head.page.run("""(() => {
-        const dataTransfer = new DataTransfer();
+    head.page.run("""(() => { const dataTransfer = new DataTransfer();
         dataTransfer.items.add(document.getElementById('file').files[0]);
-        document.dispatchEvent(new DragEvent('drop', { dataTransfer, bubbles: true, cancelable: true }));
-    })()""")
+        document.dispatchEvent(new DragEvent('drop', { dataTransfer, bubbles: true, cancelable: true })); })()""")
     head.page.until("unshadeView.state.light === 'file0'")
     found = head.linear("truth")[..., :3]
     # The capture's lamps were exposed where they stand, those of a file at infinity.
@@ -349,9 +342,8 @@ def test_a_capture_without_truth_is_shown_and_told(
 def test_a_phones_width_is_enough(head: Head) -> None:
     head.open(width=420)
     assert head.page.run("document.documentElement.scrollWidth") <= 420
-    stage = head.page.run(
-        "(({ width, height }) => [width, height])(document.getElementById('stage').getBoundingClientRect())"
-    )
+    size = "(({ clientWidth, clientHeight }) => [clientWidth, clientHeight])"
+    stage = head.page.run(size + "(document.getElementById('stage'))")
     assert stage[0] == 420 and stage[1] >= 300
     head.page.run("document.querySelector('#patches button').click()")
     head.page.until("document.querySelector('#story .facts') !== null")
@@ -364,9 +356,8 @@ def test_a_report_links_to_its_heads_and_loads_them_when_opened(
 ) -> None:
     report = tiny_run / "report"
     unshade("site", tiny_run, "-o", tmp_path / "site")
-    captures = json.loads((tmp_path / "site" / "leaderboard.json").read_text())["captures"]
-    heads = [tmp_path / "site" / link for link in captures["head"]]
-    assert heads and all(head.is_file() for head in heads)
+    links = json.loads((tmp_path / "site" / "leaderboard.json").read_text())["captures"]["head"]
+    assert links and all((tmp_path / "site" / link).is_file() for link in links)
     chromium.requested.clear()
     chromium.faults.clear()
     chromium.open(report / "index.html", 1200)

@@ -21,6 +21,7 @@ use scoring::tables::markdown_text;
 
 use super::error::ReportError;
 use super::reference::Reference;
+use super::run::RunFile;
 use finished::Finished;
 
 /// Writes the results of `runs` to the file `out`: by its ending a page of Markdown (`.md`), or the tables of means
@@ -56,9 +57,16 @@ pub fn means_in_lines(runs: &[PathBuf]) -> Result<Vec<String>, ReportError> {
 
 /// A line for each method that failed on a case of these runs.
 pub fn failures_in_lines(runs: &[PathBuf]) -> Result<Vec<String>, ReportError> {
-    let runs: Vec<Finished> =
-        runs.iter().map(|run| Finished::read(run)).collect::<Result<_, _>>()?;
-    Ok(terminal::failures(&runs))
+    let mut lines = Vec::new();
+    for run in runs {
+        for case in RunFile::open(run)?.cases {
+            lines.extend(case.methods.iter().filter_map(|method| {
+                let reason = method.failed.as_ref()?;
+                Some(format!("{} failed on {}: {reason}", method.title(), case.id))
+            }));
+        }
+    }
+    Ok(lines)
 }
 
 fn page(runs: &[Finished], command: &str) -> Result<String, ReportError> {

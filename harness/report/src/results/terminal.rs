@@ -22,18 +22,6 @@ pub(super) fn lines(runs: &[Finished]) -> Vec<String> {
     lines
 }
 
-/// What failed, and why.
-pub(super) fn failures(runs: &[Finished]) -> Vec<String> {
-    let cases = runs.iter().flat_map(|run| &run.manifest.cases);
-    let failures = cases.flat_map(|case| {
-        case.methods.iter().filter_map(|method| {
-            let reason = method.failed.as_ref()?;
-            Some(format!("{} failed on {}: {reason}", method.title(), case.id))
-        })
-    });
-    failures.collect()
-}
-
 /// The table on its side; the best of a row has a star.
 fn cells(table: &MeansTable) -> Vec<Vec<String>> {
     let head = table.rows.iter().map(|row| row.title.clone());

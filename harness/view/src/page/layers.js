@@ -32,7 +32,7 @@
       key: id, id, mode: id, group: "light", title: { shaded: "shaded", diffuse: "diffuse part", specular: "specular part" }[id],
     }));
     const shown = MAPS.filter(({ id }) => maps(id))
-      .map((layer) => ({ key: layer.key ?? layer.id, group: "maps", top: scene.tops[layer.id], ...layer }));
+      .map((layer) => ({ key: layer.key ?? layer.id, group: "maps", top: scene.tops[layer.id] || 1, ...layer }));
     if (scene.labels) shown.push({ key: "labels", id: "labels", group: "maps", title: "labels", mode: "label" });
     shown.push({
       key: "views", id: "views", group: "maps", title: "views that see a texel", mode: "views", unit: "training views",
