@@ -342,8 +342,7 @@ def test_a_capture_without_truth_is_shown_and_told(
 def test_a_phones_width_is_enough(head: Head) -> None:
     head.open(width=420)
     assert head.page.run("document.documentElement.scrollWidth") <= 420
-    size = "(({ clientWidth, clientHeight }) => [clientWidth, clientHeight])"
-    stage = head.page.run(size + "(document.getElementById('stage'))")
+    stage = head.page.run("(({ clientWidth: w, clientHeight: h }) => [w, h])(document.getElementById('stage'))")
     assert stage[0] == 420 and stage[1] >= 300
     head.page.run("document.querySelector('#patches button').click()")
     head.page.until("document.querySelector('#story .facts') !== null")
