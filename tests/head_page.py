@@ -47,6 +47,11 @@ class Head:
         }})()"""
         return np.array(self.page.run(script), np.float32).reshape(height, width, 4)
 
+    def address(self) -> str:
+        """The part of the address from #, once it states what is shown: a frame may come later than a change."""
+        self.page.until("location.hash === unshadeView.toAddress(unshadeView.state)")
+        return self.page.run("location.hash")
+
     def state(self) -> dict[str, Any]:
         return self.page.run("JSON.parse(JSON.stringify(unshadeView.state))")
 

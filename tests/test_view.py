@@ -232,7 +232,7 @@ def test_the_address_restores_the_state(head: Head) -> None:
     assert state["layer"] == "error-diffuse_albedo" and state["swipe"] == 0.3 and state["shown"] == ["truth", "method1"]
     assert state["lamp"] == {"azimuth": -30, "elevation": 20, "distance": 0.8} and state["exposure"] == 0.5
     np.testing.assert_allclose(state["camera"], [25, 10, 0.5, 0, 0, 0.05], atol=1e-3)
-    picture, address = head.linear("mean_texture"), head.page.run("location.hash")
+    picture, address = head.linear("mean_texture"), head.address()
     head.open(address)
     assert head.state() == state
     np.testing.assert_array_equal(head.linear("mean_texture"), picture)
@@ -254,7 +254,7 @@ def test_a_worst_spot_is_a_click_away(head: Head) -> None:
     assert state["spot"] and state["layer"] == "error-diffuse_albedo"
     assert head.page.run("document.querySelectorAll('#patches [aria-current]').length") == 1
     # The link restores the spot with its story; the front view is a click away.
-    address, camera = head.page.run("location.hash"), state["camera"]
+    address, camera = head.address(), state["camera"]
     head.open(address)
     head.page.until("document.querySelector('#story .facts') !== null")
     np.testing.assert_allclose(head.state()["spot"], state["spot"], atol=1e-6)
